@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/cli/check.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "pipeline/sequence/texture_store.h"
+#include "pipeline/shot/shot_scene.h"
+
+namespace lensplane {
+namespace {
+
+std::string counted(std::size_t count, std::string_view noun, std::string_view plural) {
+  return fmt::format("{} {}", count, count == 1 ? noun : plural);
+}
+
+}  // namespace
+
+void run_check(const Options& options) {
+  const Shot shot = shot_of(options);
+  check_colours(shot, ColourConfig::load(
+                          shot.colour.config ? std::optional(shot.colour.config->text) : std::nullopt,
+                          std::getenv("OCIO")));
+  for (const int frame : shot.frames) scene_at(shot, frame);
+  fmt::print("{}: right: {} of {} x {}, {}, {}\n", shot.file, counted(shot.frames.size(), "frame", "frames"),
+             shot.camera.width, shot.camera.height, counted(shot.lenses.size(), "lens", "lenses"),
+             counted(shot.layers.size(), "layer", "layers"));
+}
+
+}  // namespace lensplane

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/cli/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "pipeline/image/failure.h"
+#include "pipeline/image/version.h"
+#include "pipeline/shot/frame_range.h"
+#include "pipeline/shot/shot_reader.h"
+#include "pipeline/shot/shot_scene.h"
+
+namespace lensplane {
+namespace {
+
+constexpr int kMaxThreads = 1024;
+constexpr int kMaxProxy = 64;
+
+constexpr const char* kExamples = R"(
+Examples:
+  lensplane check scenes/seed-fig5.yaml                   is the shot right? reads no image
+  lensplane render scenes/seed-fig5.yaml                  maps, picture and review picture of every frame
+  lensplane render shot.yaml -f 1001-1010 --proxy 4       ten frames at a quarter of the resolution
+  lensplane map shot.yaml --output /tmp/maps              only the STMaps, for another compositor
+  lensplane render shot.yaml --set camera.fov="2 deg" --set lenses.near.mass="10 Msun"
+
+Exit codes: 0 done; 1 the shot or the command line is wrong; 2 an input is missing or broken;
+            3 an output could not be written; 75 interrupted or worth another try.)";
+
+void add_common(CLI::App& command, Options& options) {
+  command.add_option("SHOT", options.shot, "the shot file")->required();
+  command.add_option("--set", options.settings, "put a value over the shot's: key.path=value; may be repeated")
+      ->allow_extra_args(false);
+}
+
+void add_rendering(CLI::App& command, Options& options) {
+  command.add_option("-f,--frames", options.frames, "the frames: 1001, 1001-1048, 1001-1100x2, with commas");
+  command.add_option("--proxy", options.proxy, "render at 1/N of the resolution")->check(CLI::Range(1, kMaxProxy));
+  command.add_option("--threads", options.threads, "threads to use (else one for each core)")
+      ->check(CLI::Range(1, kMaxThreads));
+  command.add_option("--output", options.output, "the folder for everything that is written");
+  command.add_option("--stats", options.stats, "write seconds and bytes of each phase to this JSON file");
+  command.add_flag("--redo", options.redo, "make again what is already done and right");
+  command.add_flag("--quiet", options.quiet, "say nothing but errors");
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
+  ParsedCommandLine parsed;
+  Options& options = parsed.options;
+  CLI::App app("lensplane: gravitational lensing for film production, from a shot file to a lensed picture.",
+               "lensplane");
+  app.set_version_flag("--version", std::string("lensplane ") + kVersion);
+  app.require_subcommand(1);
+  app.footer(kExamples);
+
+  CLI::App* check = app.add_subcommand("check", "is the shot right? reads no image");
+  CLI::App* render = app.add_subcommand("render", "everything: maps, composite, review picture");
+  CLI::App* map = app.add_subcommand("map", "only the maps");
+  for (CLI::App* command : {check, render, map}) {
+    add_common(*command, options);
+    command->footer(kExamples);
+  }
+  for (CLI::App* command : {render, map}) add_rendering(*command, options);
+  render->callback([&options] { options.command = Command::Render; });
+  map->callback([&options] { options.command = Command::Map; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const auto chosen = app.get_subcommands();
+    parsed.text = chosen.empty() ? app.help() : chosen.front()->help();
+  } catch (const CLI::CallForVersion& version) {
+    parsed.text = std::string(version.what()) + "\n";
+  } catch (const CLI::Error& error) {
+    throw Failure(ExitCode::BadShot, "lensplane: " + one_line(error.what()) + "; see lensplane --help");
+  }
+  return parsed;
+}
+
+Shot shot_of(const Options& options) {
+  Shot shot = read_shot(options.shot, options.settings);
+  if (!options.output.empty()) shot.output.directory = options.output;
+  return proxy_of(std::move(shot), options.proxy);
+}
+
+std::vector<int> frames_of(const Options& options, const Shot& shot) {
+  if (options.frames.empty()) return shot.frames;
+  const ParsedFrames parsed = parse_frames(options.frames);
+  if (!parsed.error.empty()) throw Failure(ExitCode::BadShot, "-f: " + parsed.error);
+  return parsed.frames;
+}
+
+}  // namespace lensplane

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command line: what was asked for.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/shot/shot.h"
+
+namespace lensplane {
+
+enum class Command { Check, Render, Map };
+
+struct Options {
+  Command command = Command::Check;
+  std::string shot;
+  std::string frames;                 // as parse_frames reads them; empty: the shot's own
+  std::vector<std::string> settings;  // key.path=value
+  int proxy = 1;
+  int threads = 0;  // 0: as many as there are cores
+  std::string output;
+  std::string stats;
+  bool quiet = false;
+  bool redo = false;
+};
+
+/// What parsing a command line leads to: options, or text to print and leave with Done.
+struct ParsedCommandLine {
+  Options options;
+  std::optional<std::string> text;  // --help, --version
+};
+
+/// Throws Failure (BadShot) when the command line is wrong.
+ParsedCommandLine parse_command_line(int argc, const char* const* argv);
+
+/// The shot that the options ask for: read, with --set, --proxy and --output applied. Throws Failure.
+Shot shot_of(const Options& options);
+
+/// The frames that the options ask for. Throws Failure (BadShot).
+std::vector<int> frames_of(const Options& options, const Shot& shot);
+
+}  // namespace lensplane

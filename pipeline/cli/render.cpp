@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/cli/render.h"
+
+#include <OpenEXR/ImfThreading.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "pipeline/image/atomic_file.h"
+#include "pipeline/image/failure.h"
+#include "pipeline/sequence/progress.h"
+#include "pipeline/sequence/render_sequence.h"
+#include "pipeline/sequence/statistics.h"
+
+namespace lensplane {
+namespace {
+
+int threads_of(const Options& options) {
+  if (options.threads > 0) return options.threads;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+void write_statistics(const Options& options, const Shot& shot, int threads, double seconds,
+                      const std::vector<FrameReport>& reports) {
+  if (options.stats.empty()) return;
+  const std::string json = json_from_reports(shot.name, threads, seconds, reports);
+  write_atomically(options.stats, json);
+}
+
+}  // namespace
+
+void run_render(const Options& options, const std::function<bool()>& interrupted) {
+  const Shot shot = shot_of(options);
+  const std::vector<int> frames = frames_of(options, shot);
+  const int threads = threads_of(options);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  OIIO::attribute("threads", threads);
+  Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
+
+  const ColourConfig colours = ColourConfig::load(
+      shot.colour.config ? std::optional(shot.colour.config->text) : std::nullopt, std::getenv("OCIO"));
+  check_colours(shot, colours);
+  const FrameTasks tasks{.maps = true, .picture = options.command == Command::Render, .redo = options.redo};
+  double seconds = 0;
+  std::vector<FrameReport> reports;
+  {
+    Progress progress(frames.size(), options.quiet);
+    reports = timed(seconds, [&] {
+      return render_sequence(shot, colours, frames, tasks,
+                             {[&progress](const FrameReport& report) { progress.frame_done(report); }, interrupted});
+    });
+  }
+  write_statistics(options, shot, threads, seconds, reports);
+  if (reports.size() < frames.size()) {
+    throw Failure(ExitCode::TryAgain, fmt::format("lensplane: interrupted with {} of {} frames done; the same command goes on from there",
+                                                  reports.size(), frames.size()));
+  }
+  if (!options.quiet) fmt::print("{} frames in {}\n", frames.size(), shot.output.directory.string());
+}
+
+}  // namespace lensplane

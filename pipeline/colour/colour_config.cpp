@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/colour/colour_config.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <sstream>
+
+#include "pipeline/colour/builtin_config.h"
+#include "pipeline/image/failure.h"
+
+namespace lensplane {
+namespace {
+
+namespace OCIO = OCIO_NAMESPACE;
+
+struct KnownSpace {
+  const char* interop_id;
+  std::array<const char*, 2> names;  // what configs call it, besides the interop ID
+  Chromaticities chromaticities;
+};
+
+// Linear spaces of the ACES and sRGB families; primaries from SMPTE ST 2065-1, ACES TB-2014-004, and ITU-R BT.709.
+constexpr std::array<KnownSpace, 3> kKnownSpaces = {{
+    {"lin_ap1_scene", {"ACEScg", "lin_ap1"}, {{{.713F, .293F}, {.165F, .830F}, {.128F, .044F}, {.32168F, .33767F}}}},
+    {"lin_ap0_scene",
+     {"ACES2065-1", "lin_ap0"},
+     {{{.7347F, .2653F}, {0.F, 1.F}, {.0001F, -.077F}, {.32168F, .33767F}}}},
+    {"lin_rec709_scene",
+     {"lin_rec709", "lin_srgb"},
+     {{{.64F, .33F}, {.30F, .60F}, {.15F, .06F}, {.3127F, .3290F}}}},
+}};
+
+const KnownSpace* find_known(const OCIO::ConstConfigRcPtr& config, const std::string& space) {
+  const auto wanted = config->getColorSpace(space.c_str());
+  if (!wanted) return nullptr;
+  for (const KnownSpace& known : kKnownSpaces) {
+    for (const char* name : {known.interop_id, known.names[0], known.names[1]}) {
+      const auto candidate = config->getColorSpace(name);
+      if (candidate && std::string(candidate->getName()) == wanted->getName()) return &known;
+    }
+  }
+  return nullptr;
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+OCIO::ConstConfigRcPtr load_file(const std::string& path, const std::string& named_by) {
+  const auto refuse = [&](const std::string& reason) {
+    throw Failure(ExitCode::BadInput, fmt::format("{}: the OCIO config that {} names: {}", path, named_by, reason));
+  };
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) refuse("no such file");
+  try {
+    const auto config = OCIO::Config::CreateFromFile(path.c_str());
+    config->validate();
+    return config;
+  } catch (const OCIO::Exception& exception) {
+    refuse(one_line(exception.what()));
+  }
+  return nullptr;
+}
+
+OCIO::BitDepth bit_depth(SampleType type) {
+  switch (type) {
+    case SampleType::UInt8: return OCIO::BIT_DEPTH_UINT8;
+    case SampleType::UInt16: return OCIO::BIT_DEPTH_UINT16;
+    case SampleType::Half: return OCIO::BIT_DEPTH_F16;
+    case SampleType::Float: break;
+  }
+  return OCIO::BIT_DEPTH_F32;
+}
+
+/// Applies `processor` to rows of RGBA, in parallel, from one buffer to another.
+void apply_rows(const OCIO::ConstCPUProcessorRcPtr& processor, const void* in, SampleType type, int width, int height,
+                Rgba* out) {
+  const std::size_t row_in = static_cast<std::size_t>(width) * 4 * size_of(type);
+  const std::size_t row_out = static_cast<std::size_t>(width);
+  tbb::parallel_for(tbb::blocked_range<int>(0, height, 16), [&](const tbb::blocked_range<int>& rows) {
+    auto* source = static_cast<std::byte*>(const_cast<void*>(in)) + static_cast<std::size_t>(rows.begin()) * row_in;
+    Rgba* target = out + static_cast<std::size_t>(rows.begin()) * row_out;
+    const long count = static_cast<long>(rows.size());
+    const OCIO::PackedImageDesc from(source, width, count, 4, bit_depth(type), OCIO::AutoStride, OCIO::AutoStride,
+                                     OCIO::AutoStride);
+    OCIO::PackedImageDesc to(target, width, count, 4, OCIO::BIT_DEPTH_F32, OCIO::AutoStride, OCIO::AutoStride,
+                             OCIO::AutoStride);
+    processor->apply(from, to);
+  });
+}
+
+void premultiply(Rgba& pixel) {
+  for (std::size_t c = 0; c < 3; ++c) pixel[c] *= pixel[3];
+}
+
+void unpremultiply(Rgba& pixel) {
+  if (pixel[3] == 0.0F) return;  // light without cover, a flame, say: stays as it is
+  for (std::size_t c = 0; c < 3; ++c) pixel[c] /= pixel[3];
+}
+
+std::vector<std::string> listed(int count, const auto& name_at) {
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.emplace_back(name_at(i));
+  return names;
+}
+
+}  // namespace
+
+ColourConfig ColourConfig::load(const std::optional<std::string>& path, const char* environment) {
+  OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE);  // what matters is said by our own lines
+  if (path) return ColourConfig(load_file(*path, "colour.config"));
+  if (environment && *environment) return ColourConfig(load_file(environment, "$OCIO"));
+  std::istringstream builtin(kBuiltinOcioConfig);
+  return ColourConfig(OCIO::Config::CreateFromStream(builtin));
+}
+
+bool ColourConfig::has_space(const std::string& name) const {
+  return config_->getColorSpace(name.c_str()) != nullptr;
+}
+
+std::vector<std::string> ColourConfig::spaces() const {
+  return listed(config_->getNumColorSpaces(), [this](int i) { return config_->getColorSpaceNameByIndex(i); });
+}
+
+std::vector<std::string> ColourConfig::displays() const {
+  return listed(config_->getNumDisplays(), [this](int i) { return config_->getDisplay(i); });
+}
+
+std::vector<std::string> ColourConfig::views(const std::string& display) const {
+  return listed(config_->getNumViews(display.c_str()),
+                [&](int i) { return config_->getView(display.c_str(), i); });
+}
+
+std::string ColourConfig::space_of_file(const std::string& path) const {
+  return config_->getColorSpaceFromFilepath(path.c_str());
+}
+
+std::string ColourConfig::cache_id() const {
+  return config_->getCacheID();
+}
+
+std::string ColourConfig::interop_id(const std::string& space) const {
+  const KnownSpace* known = find_known(config_, space);
+  return known ? known->interop_id : "";
+}
+
+std::optional<Chromaticities> ColourConfig::chromaticities(const std::string& space) const {
+  const KnownSpace* known = find_known(config_, space);
+  if (!known) return std::nullopt;
+  return known->chromaticities;
+}
+
+Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding& encoding,
+                                 const std::string& working) const {
+  Picture picture{image.width, image.height, image.x, image.y, image.display_width, image.display_height, {}};
+  picture.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  const auto processor = config_->getProcessor(encoding.space.c_str(), working.c_str());
+  const bool has_alpha = image.has_alpha && !encoding.ignore_alpha;
+  const bool premultiplied = encoding.premultiplied.value_or(image.premultiplied);
+  if (has_alpha && premultiplied) {
+    // Colours have to be free of alpha while they go through the curves of the space.
+    const auto as_stored = OCIO::Config::CreateRaw()->getProcessor("raw", "raw");
+    apply_rows(as_stored->getOptimizedCPUProcessor(bit_depth(image.type), OCIO::BIT_DEPTH_F32,
+                                                   OCIO::OPTIMIZATION_LOSSLESS),
+               image.samples.data(), image.type, image.width, image.height, picture.pixels.data());
+    for (Rgba& pixel : picture.pixels) unpremultiply(pixel);
+    apply_rows(processor->getDefaultCPUProcessor(), picture.pixels.data(), SampleType::Float, image.width,
+               image.height, picture.pixels.data());
+  } else {
+    // From 8 and 16 bits OCIO looks the curves up in exact tables.
+    constexpr auto kTables =
+        static_cast<OCIO::OptimizationFlags>(OCIO::OPTIMIZATION_LOSSLESS | OCIO::OPTIMIZATION_COMP_SEPARABLE_PREFIX);
+    apply_rows(processor->getOptimizedCPUProcessor(bit_depth(image.type), OCIO::BIT_DEPTH_F32, kTables),
+               image.samples.data(), image.type, image.width, image.height, picture.pixels.data());
+  }
+  for (Rgba& pixel : picture.pixels) {
+    if (has_alpha) {
+      premultiply(pixel);
+    } else {
+      pixel[3] = 1.0F;
+    }
+  }
+  return picture;
+}
+
+Picture ColourConfig::to_display(const Picture& picture, const std::string& working, const std::string& display,
+                                 const std::string& view) const {
+  const auto transform = OCIO::DisplayViewTransform::Create();
+  transform->setSrc(working.c_str());
+  transform->setDisplay(display.c_str());
+  transform->setView(view.c_str());
+  const auto processor = config_->getProcessor(transform)->getDefaultCPUProcessor();
+  Picture shown = picture;
+  apply_rows(processor, picture.pixels.data(), SampleType::Float, picture.width, picture.height, shown.pixels.data());
+  return shown;
+}
+
+}  // namespace lensplane

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Colour management: an OpenColorIO config, and the two ways in which it is used: from an image file's encoding to the
+// working space, and from the working space to a display.
+
+#pragma once
+
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/image/exr_writer.h"
+#include "pipeline/image/image_reader.h"
+#include "pipeline/image/picture.h"
+
+namespace lensplane {
+
+/// What the colours of an image file mean.
+struct ImageEncoding {
+  std::string space;                  // a colour space of the config
+  std::optional<bool> premultiplied;  // absent: as the file says
+  bool ignore_alpha = false;
+};
+
+class ColourConfig {
+ public:
+  /// The config of `path`, else that of `$OCIO` (`environment`, null or empty when not set), else the built-in one.
+  /// Throws Failure (BadInput) that names the file which cannot be used, and why.
+  static ColourConfig load(const std::optional<std::string>& path, const char* environment);
+
+  bool has_space(const std::string& name) const;
+  std::vector<std::string> spaces() const;
+  std::vector<std::string> displays() const;
+  std::vector<std::string> views(const std::string& display) const;
+
+  /// The space that the config's file rules give to a file.
+  std::string space_of_file(const std::string& path) const;
+
+  /// Identifies the config's contents, for fingerprints.
+  std::string cache_id() const;
+
+  /// The colorInteropID of a space, empty when it has none that we know.
+  std::string interop_id(const std::string& space) const;
+
+  /// Primaries and white of a linear space that has an interop_id.
+  std::optional<Chromaticities> chromaticities(const std::string& space) const;
+
+  /// The picture in linear light in the working space, premultiplied. Runs in parallel.
+  Picture to_working(const EncodedImage& image, const ImageEncoding& encoding, const std::string& working) const;
+
+  /// A picture in the working space as a display shows it, by a view. Alpha is taken as shown over black.
+  Picture to_display(const Picture& picture, const std::string& working, const std::string& display,
+                     const std::string& view) const;
+
+ private:
+  explicit ColourConfig(OCIO_NAMESPACE::ConstConfigRcPtr config) : config_(std::move(config)) {}
+
+  OCIO_NAMESPACE::ConstConfigRcPtr config_;
+};
+
+}  // namespace lensplane

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/image/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "pipeline/image/failure.h"
+
+namespace lensplane {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw Failure(ExitCode::BadOutput, fmt::format("{}: cannot be written: {}", path.string(), reason));
+}
+
+/// Writes everything and closes; the errno of what went wrong, or 0.
+int write_and_close(int file, std::span<const char> bytes) {
+  int error = 0;
+  while (!bytes.empty() && error == 0) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written >= 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      error = errno;
+    }
+  }
+  if (error == 0 && ::fsync(file) != 0 && errno != EINVAL && errno != ENOTSUP) error = errno;
+  if (::close(file) != 0 && error == 0) error = errno;
+  return error;
+}
+
+}  // namespace
+
+void write_atomically(const std::filesystem::path& path, std::span<const char> bytes) {
+  const std::filesystem::path folder = path.parent_path().empty() ? "." : path.parent_path();
+  std::error_code made;
+  std::filesystem::create_directories(folder, made);
+  if (made) refuse(path, made.message());
+
+  const std::filesystem::path temporary =
+      folder / fmt::format(".{}.{}.part", path.filename().string(), ::getpid());
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) refuse(path, std::strerror(errno));
+  int error = write_and_close(file, bytes);
+  if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  ::unlink(temporary.c_str());
+  refuse(path, std::strerror(error));
+}
+
+}  // namespace lensplane

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/image/frame_path.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <regex>
+
+namespace lensplane {
+namespace {
+
+struct Placeholder {
+  std::size_t start;
+  std::size_t length;
+  int padding;
+};
+
+std::optional<Placeholder> find_placeholder(const std::string& pattern) {
+  const std::size_t last = pattern.find_last_of('#');
+  if (last != std::string::npos) {
+    const std::size_t before = pattern.find_last_not_of('#', last);
+    const std::size_t start = before == std::string::npos ? 0 : before + 1;
+    return Placeholder{start, last + 1 - start, static_cast<int>(last + 1 - start)};
+  }
+  static const std::regex percent("%(0[1-9])?d");
+  std::smatch match;
+  if (!std::regex_search(pattern, match, percent)) return std::nullopt;
+  const int padding = match[1].matched ? std::stoi(match[1].str()) : 1;
+  return Placeholder{static_cast<std::size_t>(match.position()), static_cast<std::size_t>(match.length()), padding};
+}
+
+}  // namespace
+
+bool is_sequence(const std::string& pattern) {
+  return find_placeholder(pattern).has_value();
+}
+
+std::string path_of_frame(const std::string& pattern, int frame) {
+  const auto placeholder = find_placeholder(pattern);
+  if (!placeholder) return pattern;
+  std::string path = pattern;
+  path.replace(placeholder->start, placeholder->length, fmt::format("{:0{}d}", frame, placeholder->padding));
+  return path;
+}
+
+}  // namespace lensplane

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/image/image_reader.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "pipeline/image/failure.h"
+
+namespace lensplane {
+namespace {
+
+// Half one, to fill the alpha of half files that have none.
+constexpr std::uint16_t kHalfOne = 0x3c00;
+
+[[noreturn]] void refuse(const std::filesystem::path& path, std::string reason) {
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  throw Failure(ExitCode::BadInput, fmt::format("{}: cannot be read as an image: {}", path.string(), reason));
+}
+
+SampleType nearest_type(OIIO::TypeDesc format) {
+  if (format == OIIO::TypeDesc::UINT8) return SampleType::UInt8;
+  if (format == OIIO::TypeDesc::UINT16) return SampleType::UInt16;
+  if (format == OIIO::TypeDesc::HALF) return SampleType::Half;
+  return SampleType::Float;
+}
+
+OIIO::TypeDesc oiio_type(SampleType type) {
+  switch (type) {
+    case SampleType::UInt8: return OIIO::TypeDesc::UINT8;
+    case SampleType::UInt16: return OIIO::TypeDesc::UINT16;
+    case SampleType::Half: return OIIO::TypeDesc::HALF;
+    case SampleType::Float: break;
+  }
+  return OIIO::TypeDesc::FLOAT;
+}
+
+std::array<std::byte, 4> full_alpha(SampleType type) {
+  std::array<std::byte, 4> bytes{};
+  const float one = 1.0F;
+  switch (type) {
+    case SampleType::UInt8: bytes[0] = std::byte{0xff}; break;
+    case SampleType::UInt16: bytes[0] = bytes[1] = std::byte{0xff}; break;
+    case SampleType::Half: std::memcpy(bytes.data(), &kHalfOne, sizeof kHalfOne); break;
+    case SampleType::Float: std::memcpy(bytes.data(), &one, sizeof one); break;
+  }
+  return bytes;
+}
+
+/// Which channels of the file are R, G, B; grey files give the same three times.
+std::array<int, 3> colour_channels(const OIIO::ImageSpec& spec) {
+  const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  if (*std::min_element(named.begin(), named.end()) >= 0) return named;
+  const int without_alpha = spec.nchannels - (spec.alpha_channel >= 0 ? 1 : 0);
+  if (without_alpha < 3) return {0, 0, 0};
+  return {0, 1, 2};
+}
+
+/// Channels as the file has them to RGBA.
+void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, EncodedImage& image) {
+  const std::size_t size = size_of(image.type);
+  const auto colours = colour_channels(spec);
+  const auto opaque = full_alpha(image.type);
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const std::size_t stride = size * static_cast<std::size_t>(spec.nchannels);
+  image.samples.resize(pixels * 4 * size);
+  std::byte* out = image.samples.data();
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const std::byte* in = file.data() + i * stride;
+    for (const int channel : colours) {
+      std::memcpy(out, in + static_cast<std::size_t>(channel) * size, size);
+      out += size;
+    }
+    std::memcpy(out, image.has_alpha ? in + static_cast<std::size_t>(spec.alpha_channel) * size : opaque.data(), size);
+    out += size;
+  }
+}
+
+}  // namespace
+
+EncodedImage read_image(const std::filesystem::path& path) {
+  std::error_code status;
+  if (!std::filesystem::exists(path, status)) {
+    throw Failure(ExitCode::BadInput, fmt::format("{}: no such image", path.string()));
+  }
+  OIIO::ImageSpec as_stored;
+  as_stored["oiio:UnassociatedAlpha"] = 1;  // else 8-bit colours would be premultiplied before they are linear
+  const auto input = OIIO::ImageInput::open(path.string(), &as_stored);
+  if (!input) refuse(path, OIIO::geterror());
+  const OIIO::ImageSpec& spec = input->spec();
+  EncodedImage image{.width = spec.width,
+                     .height = spec.height,
+                     .x = spec.x - spec.full_x,
+                     .y = spec.y - spec.full_y,
+                     .display_width = spec.full_width,
+                     .display_height = spec.full_height,
+                     .type = nearest_type(spec.format),
+                     .has_alpha = spec.alpha_channel >= 0,
+                     .premultiplied = spec.get_int_attribute("oiio:UnassociatedAlpha") == 0,
+                     .samples = {}};
+  std::vector<std::byte> file(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels) * size_of(image.type));
+  if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(image.type), file.data())) refuse(path, input->geterror());
+  pack(spec, file, image);
+  return image;
+}
+
+}  // namespace lensplane

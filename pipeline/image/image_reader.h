@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Image files as they are on disk: values as stored, colour not yet interpreted.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+namespace lensplane {
+
+enum class SampleType { UInt8, UInt16, Half, Float };
+
+/// Size of one sample in bytes.
+constexpr std::size_t size_of(SampleType type) {
+  return type == SampleType::UInt8 ? 1 : type == SampleType::Float ? 4 : 2;
+}
+
+/// RGBA samples row by row from the top, in the file's own type and encoding. Grey files have R = G = B, files without
+/// alpha have it at full. The data window lies in the display window as Picture says.
+struct EncodedImage {
+  int width = 0;
+  int height = 0;
+  int x = 0;
+  int y = 0;
+  int display_width = 0;
+  int display_height = 0;
+  SampleType type = SampleType::Float;
+  bool has_alpha = false;
+  bool premultiplied = true;  // whether colours are premultiplied by alpha; true without alpha
+  std::vector<std::byte> samples;
+};
+
+/// Reads the first part of an image. EXR and whatever else OpenImageIO reads. Throws Failure (BadInput) with the path
+/// and the reason.
+EncodedImage read_image(const std::filesystem::path& path);
+
+}  // namespace lensplane

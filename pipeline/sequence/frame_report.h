@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What one frame took and gave.
+
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lensplane {
+
+enum class Phase { Load, Trace, Composite, View, Write };
+inline constexpr std::array<std::string_view, 5> kPhaseNames = {"load", "trace", "composite", "view", "write"};
+
+struct PhaseCost {
+  double seconds = 0;
+  std::size_t bytes = 0;  // pixels produced in memory; for Write, bytes on disk
+};
+
+/// A = N_g/N of a sphere layer: rays that hit it with the lenses over rays that hit it without.
+struct Amplification {
+  std::string layer;
+  std::optional<double> factor;  // nothing when the layer is not in the frame without lenses
+};
+
+struct FrameReport {
+  int frame = 0;
+  bool already_done = false;
+  double seconds = 0;
+  std::int64_t rays = 0;  // film positions traced through the lenses
+  std::array<PhaseCost, kPhaseNames.size()> phases{};
+  std::vector<Amplification> amplifications;
+
+  PhaseCost& operator[](Phase phase) { return phases[static_cast<std::size_t>(phase)]; }
+  const PhaseCost& operator[](Phase phase) const { return phases[static_cast<std::size_t>(phase)]; }
+};
+
+/// Runs `work` and adds the time that it takes to `seconds`.
+template <class Work>
+auto timed(double& seconds, Work work) {
+  struct Stopwatch {
+    double& seconds;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    ~Stopwatch() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+  } stopwatch{seconds};
+  return work();
+}
+
+}  // namespace lensplane

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/sequence/render_frame.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "pipeline/composite/compositor.h"
+#include "pipeline/composite/locator.h"
+#include "pipeline/image/png_writer.h"
+#include "pipeline/sequence/fingerprint.h"
+#include "pipeline/shot/shot_scene.h"
+#include "src/lens_map.h"
+
+namespace lensplane {
+namespace {
+
+/// Everything that is known about a frame before any light is traced.
+struct FrameSetup {
+  Scene scene;
+  Plan plan;
+  ExrHeader map_header;
+  ExrHeader picture_header;
+  std::string review_parameters;
+  bool maps_wanted;
+  bool picture_wanted;
+  bool review_wanted;
+};
+
+ExrWindow window_of(const Camera& camera) {
+  return {camera.width, camera.height, camera.overscan};
+}
+
+std::string fingerprint_of_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
+                                   const FrameSetup& setup) {
+  Fingerprint print = fingerprint_of_trace(setup.scene, setup.plan);
+  print.add(colours.cache_id()).add(shot.colour.working.text);
+  print.add(static_cast<double>(shot.output.image.type)).add(static_cast<double>(shot.output.image.compression));
+  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+    print.add(textures.digest(k, frame));
+    if (const auto light = light_at(shot.layers[k], frame)) print.add("light").add(*light);
+  }
+  return print.digest();
+}
+
+FrameSetup prepare(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
+                   const FrameTasks& tasks) {
+  FrameSetup setup;
+  setup.scene = scene_at(shot, frame);
+  setup.plan = plan_trace(setup.scene, shot.method);
+  const auto& maps = shot.output.maps;
+  setup.maps_wanted = tasks.maps && std::find(maps.begin(), maps.end(), true) != maps.end();
+  setup.picture_wanted = tasks.picture;
+  setup.review_wanted = tasks.picture && shot.output.review;
+
+  ExrHeader header;
+  header.shot = shot.name;
+  header.frame = frame;
+  header.plan = describe(setup.plan);
+  header.fps = shot.fps;
+  header.camera_axes = setup.scene.camera.axes;
+  header.camera_position = setup.scene.camera.position;
+  header.chromaticities = colours.chromaticities(shot.colour.working.text);
+  setup.map_header = header;
+  setup.map_header.colour_interop = "data";
+  setup.map_header.parameters = fingerprint_of_trace(setup.scene, setup.plan).digest();
+  if (setup.picture_wanted) {
+    setup.picture_header = header;
+    setup.picture_header.colour_interop = colours.interop_id(shot.colour.working.text);
+    setup.picture_header.parameters = fingerprint_of_picture(shot, colours, textures, frame, setup);
+    setup.review_parameters = Fingerprint()
+                                  .add(setup.picture_header.parameters)
+                                  .add(shot.colour.display.text)
+                                  .add(shot.colour.view.text)
+                                  .add(static_cast<double>(shot.output.locator))
+                                  .digest();
+  }
+  return setup;
+}
+
+bool is_done(const Shot& shot, int frame, const FrameSetup& setup) {
+  const auto exr_done = [](const std::filesystem::path& path, const ExrHeader& header) {
+    return read_exr_attribute(path, "parameters") == header.parameters;
+  };
+  for (std::size_t k = 0; setup.maps_wanted && k < shot.layers.size(); ++k) {
+    if (shot.output.maps[k] && !exr_done(map_path(shot, shot.layers[k].name, frame), setup.map_header)) return false;
+  }
+  if (setup.picture_wanted && !exr_done(picture_path(shot, frame), setup.picture_header)) return false;
+  return !setup.review_wanted || read_png_parameters(review_path(shot, frame)) == setup.review_parameters;
+}
+
+/// "earth 4.46 moon -": as the picture's header keeps the factors.
+std::string text_from_amplifications(const std::vector<Amplification>& amplifications) {
+  std::string text;
+  for (const Amplification& a : amplifications) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : " ", a.layer, a.factor ? fmt::format("{}", *a.factor) : "-");
+  }
+  return text;
+}
+
+std::vector<Amplification> amplifications_from_text(const std::string& text) {
+  std::vector<Amplification> amplifications;
+  std::istringstream words(text);
+  for (std::string layer, factor; words >> layer >> factor;) {
+    double value = 0;
+    const auto parsed = std::from_chars(factor.data(), factor.data() + factor.size(), value);
+    const bool known = parsed.ec == std::errc();
+    amplifications.push_back({layer, known ? std::optional(value) : std::nullopt});
+  }
+  return amplifications;
+}
+
+void make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport& report) {
+  Scene wanted = setup.scene;
+  wanted.surfaces.clear();
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+    if (!shot.output.maps[k]) continue;
+    wanted.surfaces.push_back(setup.scene.surfaces[k]);
+    names.push_back(shot.layers[k].name);
+  }
+  const auto maps = timed(report[Phase::Trace].seconds, [&] { return trace_maps(Tracer(wanted, setup.plan)); });
+  report.rays += static_cast<std::int64_t>(maps.front().width) * maps.front().height;
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    const LensMap& map = maps[k];
+    report[Phase::Trace].bytes += 3 * sizeof(float) * map.s.size();
+    const std::vector<ExrChannel> channels = {{"R", map.s.data()}, {"G", map.t.data()}, {"B", map.valid.data()}};
+    report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
+      return write_exr(map_path(shot, names[k], frame), window_of(setup.scene.camera), channels,
+                       {PixelType::Float, ExrCompression::Zip}, setup.map_header);
+    });
+  }
+}
+
+std::vector<SurfaceLook> load_looks(const Shot& shot, const Scene& scene, TextureStore& textures, int frame,
+                                    FrameReport& report) {
+  std::vector<SurfaceLook> looks;
+  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+    SurfaceLook look;
+    look.texture = timed(report[Phase::Load].seconds, [&] { return textures.texture(k, frame); });
+    report[Phase::Load].bytes += look.texture->picture().pixels.size() * sizeof(Rgba);
+    if (const auto light = light_at(shot.layers[k], frame)) {
+      look.light = std::get<Sphere>(scene.surfaces[k]).axes.local_from_parent(*light);
+    }
+    looks.push_back(std::move(look));
+  }
+  return looks;
+}
+
+std::vector<Amplification> amplifications_of(const Shot& shot, const Scene& scene, Method method,
+                                             const std::vector<std::int64_t>& hits) {
+  Scene without_lenses{scene.camera, {}, {}};
+  std::vector<std::size_t> spheres;
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+    if (!std::holds_alternative<Sphere>(scene.surfaces[k])) continue;
+    without_lenses.surfaces.push_back(scene.surfaces[k]);
+    spheres.push_back(k);
+  }
+  if (spheres.empty()) return {};
+  const auto unlensed = count_hits(Tracer(without_lenses, plan_trace(without_lenses, method)));
+  std::vector<Amplification> amplifications;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    Amplification a{shot.layers[spheres[i]].name, std::nullopt};
+    if (unlensed[i] > 0) a.factor = static_cast<double>(hits[spheres[i]]) / static_cast<double>(unlensed[i]);
+    amplifications.push_back(std::move(a));
+  }
+  return amplifications;
+}
+
+void write_picture(const Shot& shot, int frame, const FrameSetup& setup, const Picture& picture, FrameReport& report) {
+  ExrHeader header = setup.picture_header;
+  header.amplification = text_from_amplifications(report.amplifications);
+  std::vector<ExrChannel> channels;
+  for (const char* name : {"R", "G", "B", "A"}) {
+    channels.push_back({name, picture.pixels.front().data() + channels.size(), 4});
+  }
+  report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
+    return write_exr(picture_path(shot, frame), window_of(setup.scene.camera), channels, shot.output.image, header);
+  });
+}
+
+/// The display window of a picture, without its overscan.
+Picture display_window(const Picture& picture) {
+  Picture window{picture.display_width, picture.display_height, 0, 0, picture.display_width, picture.display_height, {}};
+  for (int row = 0; row < window.height; ++row) {
+    const Rgba* first = &picture.at(-picture.x, row - picture.y);
+    window.pixels.insert(window.pixels.end(), first, first + window.width);
+  }
+  return window;
+}
+
+Picture beside(const Picture& left, const Picture& right) {
+  Picture both{left.width + right.width, left.height, 0, 0, left.width + right.width, left.height, {}};
+  for (int row = 0; row < both.height; ++row) {
+    for (const Picture* part : {&left, &right}) {
+      both.pixels.insert(both.pixels.end(), &part->at(0, row), &part->at(0, row) + part->width);
+    }
+  }
+  return both;
+}
+
+void make_review(const Shot& shot, const ColourConfig& colours, int frame, const FrameSetup& setup,
+                 const Picture& picture, const std::vector<SurfaceLook>& looks, FrameReport& report) {
+  Picture shown = display_window(picture);
+  if (shot.output.locator == Locator::Beside) {
+    const LocatorView locator = make_locator(setup.scene, looks);
+    const Tracer tracer(locator.scene, plan_trace(locator.scene, setup.plan.method));
+    const Composite view = timed(report[Phase::Composite].seconds,
+                                 [&] { return composite(tracer, locator.scene, locator.looks); });
+    shown = beside(shown, display_window(view.picture));
+  }
+  const Picture display = timed(report[Phase::View].seconds, [&] {
+    return colours.to_display(shown, shot.colour.working.text, shot.colour.display.text, shot.colour.view.text);
+  });
+  report[Phase::View].bytes += display.pixels.size() * sizeof(Rgba);
+  report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
+    return write_png(review_path(shot, frame), display, setup.review_parameters);
+  });
+}
+
+void make_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
+                  const FrameSetup& setup, FrameReport& report) {
+  const auto looks = load_looks(shot, setup.scene, textures, frame, report);
+  const Tracer tracer(setup.scene, setup.plan);
+  const Composite result =
+      timed(report[Phase::Composite].seconds, [&] { return composite(tracer, setup.scene, looks); });
+  report.rays += static_cast<std::int64_t>(result.picture.pixels.size()) * kRaysPerPixel;
+  report[Phase::Composite].bytes += result.picture.pixels.size() * sizeof(Rgba);
+  report.amplifications = timed(report[Phase::Trace].seconds, [&] {
+    return amplifications_of(shot, setup.scene, setup.plan.method, result.hits);
+  });
+  write_picture(shot, frame, setup, result.picture, report);
+  if (setup.review_wanted) make_review(shot, colours, frame, setup, result.picture, looks, report);
+}
+
+}  // namespace
+
+std::filesystem::path picture_path(const Shot& shot, int frame) {
+  return shot.output.directory / fmt::format("{}.{:04}.exr", shot.name, frame);
+}
+
+std::filesystem::path map_path(const Shot& shot, const std::string& layer, int frame) {
+  return shot.output.directory / fmt::format("{}.{}.map.{:04}.exr", shot.name, layer, frame);
+}
+
+std::filesystem::path review_path(const Shot& shot, int frame) {
+  return shot.output.directory / fmt::format("{}.review.{:04}.png", shot.name, frame);
+}
+
+FrameReport render_frame(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
+                         const FrameTasks& tasks) {
+  FrameReport report;
+  report.frame = frame;
+  timed(report.seconds, [&] {
+    const FrameSetup setup = prepare(shot, colours, textures, frame, tasks);
+    report.already_done = !tasks.redo && is_done(shot, frame, setup);
+    if (report.already_done) {
+      const auto kept = setup.picture_wanted ? read_exr_attribute(picture_path(shot, frame), "amplification")
+                                             : std::nullopt;
+      report.amplifications = amplifications_from_text(kept.value_or(""));
+      return;
+    }
+    if (setup.maps_wanted) make_maps(shot, frame, setup, report);
+    if (setup.picture_wanted) make_picture(shot, colours, textures, frame, setup, report);
+  });
+  return report;
+}
+
+}  // namespace lensplane

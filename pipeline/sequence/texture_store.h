@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The images of a shot's layers: found, read, brought into the working space, and kept while they are needed.
+
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "pipeline/colour/colour_config.h"
+#include "pipeline/composite/texture.h"
+#include "pipeline/shot/shot.h"
+
+namespace lensplane {
+
+/// Throws Failure (BadShot) when the shot names a colour space, display or view that the config does not have.
+void check_colours(const Shot& shot, const ColourConfig& colours);
+
+/// Safe to use from many threads. Still images are kept; those of sequences are read for their frame.
+class TextureStore {
+ public:
+  /// `shot` and `colours` have to outlive the store.
+  TextureStore(const Shot& shot, const ColourConfig& colours) : shot_(shot), colours_(colours) {}
+
+  /// The image of a layer (an index into Shot::layers) at a frame. Throws Failure (BadInput).
+  std::shared_ptr<const Texture> texture(std::size_t layer, int frame);
+
+  /// A hash of the image's file and of how its colours are read.
+  std::string digest(std::size_t layer, int frame);
+
+ private:
+  std::shared_ptr<const Texture> load(const Layer& layer, const std::string& path) const;
+  ImageEncoding encoding_of(const Layer& layer, const std::string& path) const;
+
+  const Shot& shot_;
+  const ColourConfig& colours_;
+  std::mutex mutex_;
+  std::map<std::size_t, std::shared_ptr<const Texture>> still_textures_;
+  std::map<std::size_t, std::string> still_digests_;
+};
+
+}  // namespace lensplane

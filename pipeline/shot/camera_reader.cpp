@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/shot/camera_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "src/constants.h"
+
+namespace lensplane {
+namespace {
+
+constexpr int kMaxResolution = 65536;
+constexpr int kMaxOverscan = 16384;
+
+enum class ProjectionKind { Perspective, LatLong, Fisheye };
+constexpr std::array<std::string_view, 3> kProjectionNames = {"perspective", "latlong", "fisheye"};
+
+ProjectionKind read_projection(const Value& camera, NotYet& not_yet) {
+  const auto projection = camera.find("projection");
+  if (!projection) return ProjectionKind::Perspective;
+  const auto kind = static_cast<ProjectionKind>(projection->choice(kProjectionNames));
+  if (kind != ProjectionKind::Perspective) not_yet.add(*projection, projection->text());
+  return kind;
+}
+
+double read_fov(const Value& fov, ProjectionKind kind) {
+  const double angle = fov.positive(Dimension::Angle);
+  if (kind == ProjectionKind::Perspective && !(angle < kPi)) {
+    fov.refuse(in_quotes(fov.text()) + "; allowed for a perspective camera: more than 0 deg and less than 180 deg");
+  }
+  if (angle > 2.0 * kPi * (1.0 + 1e-12)) fov.refuse(in_quotes(fov.text()) + "; allowed: up to 360 deg");
+  return angle;
+}
+
+std::variant<Keyed<double>, FocalLength> read_field_of_view(const Value& camera, ProjectionKind kind) {
+  const auto fov = camera.find("fov");
+  const auto focal_length = camera.find("focal_length");
+  const auto film_width = camera.find("film_width");
+  if (fov && focal_length) focal_length->refuse("given together with fov; allowed: one of the two");
+  if (fov && film_width) film_width->refuse("given together with fov; allowed: with focal_length only");
+  if (focal_length) {
+    const Value width = camera.require("film_width", "the film's width for this focal_length, like 36 mm");
+    return FocalLength{read_keyed_positive(*focal_length, Dimension::Length),
+                       read_keyed_positive(width, Dimension::Length)};
+  }
+  if (!fov && kind == ProjectionKind::LatLong) return Keyed<double>::constant(2.0 * kPi);
+  const Value needed = camera.require("fov", "the full horizontal angle, like 3 deg (or focal_length and film_width)");
+  return read_keyed(needed, [kind](const Value& v) { return read_fov(v, kind); });
+}
+
+template <class Index>
+std::optional<Index> find_name(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return Index{static_cast<std::size_t>(found - names.begin())};
+}
+
+LookAt read_look_at(const Value& value, const Value& camera, const ShotNames& names) {
+  LookAt look_at{{}, Keyed<Vec3>::constant({0, 1, 0}), value.location()};
+  if (const auto up = camera.find("up")) look_at.up = read_keyed_direction(*up);
+  if (value.is_list() || value.is_map()) {
+    look_at.target = read_keyed_vector(value, Dimension::Length);
+    return look_at;
+  }
+  const std::string name = value.text();
+  const auto lens = find_name<LensIndex>(names.lenses, name);
+  const auto layer = find_name<LayerIndex>(names.layers, name);
+  if (lens) look_at.target = *lens;
+  if (layer) look_at.target = *layer;
+  if (!lens && !layer) {
+    value.refuse(in_quotes(name) + " is no lens or layer of this shot; allowed: one of their names, or [x, y, z]");
+  }
+  return look_at;
+}
+
+std::variant<Rotation, LookAt> read_orientation(const Value& camera, const ShotNames& names) {
+  const auto look_at = camera.find("look_at");
+  const auto rotation = camera.find("rotation");
+  if (look_at && rotation) rotation->refuse("given together with look_at; allowed: one of the two");
+  if (look_at) return read_look_at(*look_at, camera, names);
+  if (const auto up = camera.find("up")) up->refuse("has a meaning only together with look_at");
+  if (rotation) return Rotation{read_keyed_vector(*rotation, Dimension::Angle)};
+  return Rotation{};
+}
+
+int read_overscan(const Value& overscan, NotYet& not_yet) {
+  if (overscan.text() == "auto") {
+    not_yet.add(overscan, "auto; write a number of pixels");
+    return 0;
+  }
+  const int pixels = overscan.integer(0, kMaxOverscan);
+  if (pixels % 2 != 0) overscan.refuse(fmt::format("{} is odd; allowed: an even number of pixels, or auto", pixels));
+  return pixels;
+}
+
+void read_shutter(const Value& shutter, CameraTrack& track, NotYet& not_yet) {
+  shutter.only_keys({"open", "close", "samples"});
+  if (const auto open = shutter.find("open")) track.shutter_open = open->quantity(Dimension::Number);
+  if (const auto close = shutter.find("close")) track.shutter_close = close->quantity(Dimension::Number);
+  if (track.shutter_close < track.shutter_open) shutter.refuse("closes before it opens; allowed: open <= close");
+  if (const auto samples = shutter.find("samples")) {
+    if (samples->integer(1, 1024) > 1) not_yet.add(*samples, "motion blur; write 1");
+  }
+}
+
+}  // namespace
+
+CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not_yet) {
+  camera.only_keys({"projection", "resolution", "fov", "focal_length", "film_width", "position", "look_at", "rotation",
+                    "up", "overscan", "shutter", "from"});
+  CameraTrack track;
+  const ProjectionKind kind = read_projection(camera, not_yet);
+  const auto size = camera.require("resolution", "[width, height] in pixels")
+                        .items(2, "[width, height] in pixels, like [1920, 1080]");
+  track.width = size[0].integer(1, kMaxResolution);
+  track.height = size[1].integer(1, kMaxResolution);
+  if (const auto from = camera.find("from")) {
+    from->text();
+    not_yet.add(*from, "a camera from a file; write position, look_at and fov");
+  } else {
+    track.fov = read_field_of_view(camera, kind);
+  }
+  if (const auto position = camera.find("position")) track.position = read_keyed_vector(*position, Dimension::Length);
+  track.orientation = read_orientation(camera, names);
+  if (const auto overscan = camera.find("overscan")) track.overscan = read_overscan(*overscan, not_yet);
+  if (const auto shutter = camera.find("shutter")) read_shutter(*shutter, track, not_yet);
+  return track;
+}
+
+}  // namespace lensplane

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The `layers` of a shot file.
+
+#pragma once
+
+#include "pipeline/shot/not_yet.h"
+#include "pipeline/shot/shot.h"
+
+namespace lensplane {
+
+/// Reads one item of `layers`. Image paths stay as they are written. Nothing for a layer that is right but not available
+/// yet.
+std::optional<Layer> read_layer(const Value& layer, const ShotNames& names, NotYet& not_yet);
+
+}  // namespace lensplane

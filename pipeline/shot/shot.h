@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A shot: everything that a shot file says, as plain data in SI units, over all its frames.
+
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pipeline/image/exr_writer.h"
+#include "pipeline/shot/keyed.h"
+#include "pipeline/shot/location.h"
+#include "src/method.h"
+
+namespace lensplane {
+
+/// A name that the shot gives to something outside of it, with the place to blame when it does not exist.
+struct LocatedText {
+  std::string text;
+  Location location;
+  std::string key;
+};
+
+/// The camera's field of view as the focal length of a lens.
+struct FocalLength {
+  Keyed<double> focal_length;  // metres
+  Keyed<double> film_width;    // metres
+};
+
+struct LensIndex {
+  std::size_t index;
+};
+struct LayerIndex {
+  std::size_t index;
+};
+
+/// What the camera looks at: a point, a lens, or a layer with a centre.
+struct LookAt {
+  std::variant<Keyed<Vec3>, LensIndex, LayerIndex> target;
+  Keyed<Vec3> up = Keyed<Vec3>::constant({0, 1, 0});
+  Location location;
+};
+
+/// Angles about x, y, z in radians, applied in the order z, x, y.
+struct Rotation {
+  Keyed<Vec3> angles;
+};
+
+struct CameraTrack {
+  int width = 0;
+  int height = 0;
+  int overscan = 0;
+  std::variant<Keyed<double>, FocalLength> fov;  // radians across the width
+  Keyed<Vec3> position;
+  std::variant<Rotation, LookAt> orientation;
+  double shutter_open = 0;   // frames
+  double shutter_close = 0;  // frames
+};
+
+struct LensTrack {
+  std::string name;
+  Keyed<double> m;  // geometric mass, metres
+  Keyed<Vec3> position;
+};
+
+/// What lies outside of a plate.
+enum class Edge { Black, Clamp, Mirror, Repeat };
+
+/// How a picture's colours and its alpha belong together.
+enum class AlphaKind { Associated, Straight, None };
+
+struct LayerImage {
+  std::string pattern;  // a path, or that of a sequence; see path_of_frame
+  std::optional<LocatedText> space;
+  std::optional<AlphaKind> alpha;  // absent: as the file says
+};
+
+struct PlateLayer {
+  Edge edge = Edge::Black;
+};
+struct LatLongLayer {};
+struct SphereLayer {
+  Keyed<Vec3> centre;
+  Keyed<double> radius;
+  Keyed<Vec3> rotation;              // as Rotation
+  std::optional<Keyed<Vec3>> light;  // unit direction towards the light
+};
+
+struct Layer {
+  std::string name;
+  LayerImage image;
+  std::variant<PlateLayer, LatLongLayer, SphereLayer> kind;
+};
+
+struct ColourSettings {
+  std::optional<LocatedText> config;  // path
+  LocatedText working{"ACEScg", {}, "colour.working"};
+  LocatedText display{"sRGB - Display", {}, "colour.display"};
+  LocatedText view{"ACES 1.0 - SDR Video", {}, "colour.view"};
+};
+
+/// Where the picture of where the sources are goes.
+enum class Locator { None, Beside };
+
+struct OutputSettings {
+  std::filesystem::path directory;
+  ExrFormat image;
+  std::vector<bool> maps;  // per layer
+  bool review = true;
+  Locator locator = Locator::None;
+};
+
+struct Shot {
+  std::string file;
+  std::string name;
+  std::vector<int> frames;
+  Rational fps{24, 1};
+  CameraTrack camera;
+  std::vector<LensTrack> lenses;
+  std::vector<Layer> layers;
+  Method method = Method::ShinotsukaMakino;
+  ColourSettings colour;
+  OutputSettings output;
+};
+
+}  // namespace lensplane

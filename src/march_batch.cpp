@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "src/march_batch.h"
+
+#include <cmath>
+#include <limits>
+
+#include "src/deflection.h"
+#include "src/surfaces.h"
+
+// Each kernel is compiled for these instruction sets; the loader picks one. Sanitizers are not up when it does.
+#if defined(__x86_64__) && !defined(LENSPLANE_SANITIZE)
+#define LENSPLANE_KERNEL [[gnu::target_clones("default", "arch=haswell", "arch=skylake-avx512")]]
+#else
+#define LENSPLANE_KERNEL
+#endif
+
+namespace lensplane {
+namespace {
+
+// Taylor series, whose remainders are below 1e-17 for |a| <= kBatchAlpha = 1. Horner's form, lowest term last.
+[[gnu::always_inline]] inline double sin_up_to_one(double a) {
+  const double q = a * a;
+  double sum = 1.0 / 355687428096000.0;       // 1/17!
+  sum = sum * q - 1.0 / 1307674368000.0;      // 1/15!
+  sum = sum * q + 1.0 / 6227020800.0;         // 1/13!
+  sum = sum * q - 1.0 / 39916800.0;           // 1/11!
+  sum = sum * q + 1.0 / 362880.0;             // 1/9!
+  sum = sum * q - 1.0 / 5040.0;               // 1/7!
+  sum = sum * q + 1.0 / 120.0;                // 1/5!
+  sum = sum * q - 1.0 / 6.0;                  // 1/3!
+  return a + a * q * sum;
+}
+
+[[gnu::always_inline]] inline double cos_up_to_one(double a) {
+  const double q = a * a;
+  double sum = -1.0 / 6402373705728000.0;     // 1/18!
+  sum = sum * q + 1.0 / 20922789888000.0;     // 1/16!
+  sum = sum * q - 1.0 / 87178291200.0;        // 1/14!
+  sum = sum * q + 1.0 / 479001600.0;          // 1/12!
+  sum = sum * q - 1.0 / 3628800.0;            // 1/10!
+  sum = sum * q + 1.0 / 40320.0;              // 1/8!
+  sum = sum * q - 1.0 / 720.0;                // 1/6!
+  sum = sum * q + 1.0 / 24.0;                 // 1/4!
+  sum = sum * q - 0.5;
+  return 1.0 + q * sum;
+}
+
+}  // namespace
+
+LENSPLANE_KERNEL
+void start_rays(const Camera& camera, const BatchArray& x, const BatchArray& y, RayBatch& rays) {
+  const double slope = slope_per_pixel(camera);
+  const double centre_x = camera.width / 2.0;
+  const double centre_y = camera.height / 2.0;
+  rays.start_z = 0.0;
+  for (int i = 0; i < kBatchSize; ++i) {
+    const double right = (x[i] - centre_x) * slope;
+    const double up = (centre_y - y[i]) * slope;
+    const double scale = 1.0 / std::sqrt(right * right + up * up + 1.0);
+    rays.start_x[i] = 0.0;
+    rays.start_y[i] = 0.0;
+    rays.travelled[i] = 0.0;
+    rays.dir_x[i] = right * scale;
+    rays.dir_y[i] = up * scale;
+    rays.dir_z[i] = -scale;
+    // As meet_plate will compute them, so that a ray that is never bent comes back to its own pixel exactly.
+    const double per_depth = 1.0 / scale;
+    rays.first_right[i] = rays.dir_x[i] * per_depth;
+    rays.first_up[i] = rays.dir_y[i] * per_depth;
+    rays.irregular[i] = 0.0;
+  }
+}
+
+LENSPLANE_KERNEL
+void advance_rays(double z, RayBatch& rays) {
+  const double depth = z - rays.start_z;
+  for (int i = 0; i < kBatchSize; ++i) {
+    const double length = depth / rays.dir_z[i];
+    rays.start_x[i] += rays.dir_x[i] * length;
+    rays.start_y[i] += rays.dir_y[i] * length;
+    rays.travelled[i] += length;
+  }
+  rays.start_z = z;
+}
+
+LENSPLANE_KERNEL
+void bend_rays(const Source& source, RayBatch& rays) {
+  for (int i = 0; i < kBatchSize; ++i) {
+    const double vx = rays.dir_x[i], vy = rays.dir_y[i], vz = rays.dir_z[i];
+    const double to_x = source.x - rays.start_x[i];
+    const double to_y = source.y - rays.start_y[i];
+    // The part of P_g - Q across the ray: V_rot of equation (3) times its length.
+    const double along = to_x * vx + to_y * vy;
+    const double across_x = to_x - along * vx;
+    const double across_y = to_y - along * vy;
+    const double across_z = -along * vz;
+    const double across2 = across_x * across_x + across_y * across_y + across_z * across_z;
+    const double b2 = to_x * to_x + to_y * to_y;
+    const double alpha = weak_deflection(source.m, std::sqrt(b2));
+    const double cosine = cos_up_to_one(alpha);
+    const double sine = sin_up_to_one(alpha) / std::sqrt(across2);
+    const double new_z = cosine * vz + sine * across_z;
+    rays.dir_x[i] = cosine * vx + sine * across_x;
+    rays.dir_y[i] = cosine * vy + sine * across_y;
+    rays.dir_z[i] = new_z;
+    // Written so that a NaN, from squares that overflow or underflow, is irregular, too.
+    const bool regular = (alpha <= kBatchAlpha) & (across2 > 0.0) & (b2 < std::numeric_limits<double>::max()) &
+                         (new_z < 0.0);
+    rays.irregular[i] = regular ? rays.irregular[i] : 1.0;
+  }
+}
+
+LENSPLANE_KERNEL
+void enter_sphere(const Vec3& centre, double radius, double end_z, const RayBatch& rays, BatchArray& entry) {
+  const double to_z = centre.z - rays.start_z;
+  const double depth = end_z - rays.start_z;
+  const double earliest = -kSurfaceTolerance * radius;
+  for (int i = 0; i < kBatchSize; ++i) {
+    const double to_x = centre.x - rays.start_x[i];
+    const double to_y = centre.y - rays.start_y[i];
+    const double along = to_x * rays.dir_x[i] + to_y * rays.dir_y[i] + to_z * rays.dir_z[i];
+    const double across_x = to_x - along * rays.dir_x[i];
+    const double across_y = to_y - along * rays.dir_y[i];
+    const double across_z = to_z - along * rays.dir_z[i];
+    const double half_chord2 = radius * radius - (across_x * across_x + across_y * across_y + across_z * across_z);
+    const double near = along - std::sqrt(half_chord2 > 0.0 ? half_chord2 : 0.0);
+    const bool enters = (half_chord2 >= 0.0) & (near >= earliest) & (near <= depth / rays.dir_z[i]);
+    entry[i] = enters ? near : std::numeric_limits<double>::infinity();
+  }
+}
+
+LENSPLANE_KERNEL
+void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, const RayBatch& rays, BatchArray& s,
+                BatchArray& t, BatchArray& in_front) {
+  const double pixels_per_slope = 1.0 / slope_per_pixel(camera);
+  const double width = camera.width;
+  const double height = camera.height;
+  for (int i = 0; i < kBatchSize; ++i) {
+    const double per_depth = 1.0 / -rays.dir_z[i];
+    const double moved_right = rays.dir_x[i] * per_depth - rays.first_right[i];
+    const double moved_up = rays.dir_y[i] * per_depth - rays.first_up[i];
+    s[i] = (x[i] + moved_right * pixels_per_slope) / width;
+    t[i] = 1.0 - (y[i] - moved_up * pixels_per_slope) / height;
+    const bool seen = (rays.dir_z[i] < 0.0) & (std::abs(s[i]) <= kPlateLimit) & (std::abs(t[i]) <= kPlateLimit);
+    in_front[i] = seen ? 1.0 : 0.0;
+  }
+}
+
+}  // namespace lensplane

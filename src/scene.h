@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The vocabulary of lensplane: one instant of a shot, as plain data.
+//
+// World: right-handed, y up, metres, double precision. Film: x to the right, y down from the top row, in pixels;
+// the centre of the first pixel is (0.5, 0.5).
+
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "src/basis.h"
+
+namespace lensplane {
+
+/// A perspective camera with square pixels.
+struct Camera {
+  int width = 0;     // pixels of the output frame
+  int height = 0;    // pixels of the output frame
+  int overscan = 0;  // further pixels on every side; the field of view does not count them
+  double fov_rad = 0;  // full horizontal angle across `width`, in (0, pi)
+  Vec3 position{0};    // metres
+  Basis axes;          // world from camera: looks along -z, +x to the right, +y up
+};
+
+/// A point mass.
+struct Lens {
+  double m = 0;      // geometric mass G M / c^2, metres, >= 0
+  Vec3 position{0};  // metres
+};
+
+/// A picture at infinity that fills the camera's frame when nothing is lensed.
+/// (s, t): (0, 0) is the frame's lower left corner, (1, 1) its upper right. Outside the frame they go on.
+struct Plate {};
+
+/// A picture around everything, at infinity. s = .5 looks along the world's -z, s = .75 along +x; t = 1 is up.
+struct LatLong {};
+
+/// An opaque ball, seen from outside. s = .5 is longitude 0, which lies along the body's +z, east to the right;
+/// t = 1 is the north pole, along its +y.
+struct Sphere {
+  Vec3 centre{0};     // metres
+  double radius = 0;  // metres, > 0
+  Basis axes;         // world from body
+};
+
+using Surface = std::variant<Plate, LatLong, Sphere>;
+
+/// Everything that determines where light goes at one instant.
+struct Scene {
+  Camera camera;
+  std::vector<Lens> lenses;
+  std::vector<Surface> surfaces;
+};
+
+}  // namespace lensplane
