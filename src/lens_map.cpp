@@ -25,8 +25,8 @@ void trace_row(const Tracer& tracer, int row, TraceBatch& batch, std::vector<Len
   const int width = tracer.camera().width + 2 * overscan;
   for (int column = 0; column < width; column += kBatchSize) {
     const int count = std::min(kBatchSize, width - column);
-    for (int i = 0; i < kBatchSize; ++i) {
-      batch.x[i] = column + std::min(i, count - 1) - overscan + 0.5;
+    for (int i = 0; i < kBatchSize; ++i) {  // the last batch of a row reaches beyond it; those rays are not used
+      batch.x[i] = column + i - overscan + 0.5;
       batch.y[i] = row - overscan + 0.5;
     }
     tracer.trace(batch);

@@ -105,6 +105,14 @@ void unpremultiply(Rgba& pixel) {
   for (std::size_t c = 0; c < 3; ++c) pixel[c] /= pixel[3];
 }
 
+/// Calls `change` on every pixel, in parallel.
+template <class Change>
+void for_each_pixel(Picture& picture, Change change) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, picture.pixels.size(), 65536), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) change(picture.pixels[i]);
+  });
+}
+
 std::vector<std::string> listed(int count, const auto& name_at) {
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) names.emplace_back(name_at(i));
@@ -170,7 +178,7 @@ Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding&
     apply_rows(as_stored->getOptimizedCPUProcessor(bit_depth(image.type), OCIO::BIT_DEPTH_F32,
                                                    OCIO::OPTIMIZATION_LOSSLESS),
                image.samples.data(), image.type, image.width, image.height, picture.pixels.data());
-    for (Rgba& pixel : picture.pixels) unpremultiply(pixel);
+    for_each_pixel(picture, unpremultiply);
     apply_rows(processor->getDefaultCPUProcessor(), picture.pixels.data(), SampleType::Float, image.width,
                image.height, picture.pixels.data());
   } else {
@@ -180,13 +188,13 @@ Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding&
     apply_rows(processor->getOptimizedCPUProcessor(bit_depth(image.type), OCIO::BIT_DEPTH_F32, kTables),
                image.samples.data(), image.type, image.width, image.height, picture.pixels.data());
   }
-  for (Rgba& pixel : picture.pixels) {
+  for_each_pixel(picture, [has_alpha](Rgba& pixel) {
     if (has_alpha) {
       premultiply(pixel);
     } else {
       pixel[3] = 1.0F;
     }
-  }
+  });
   return picture;
 }
 

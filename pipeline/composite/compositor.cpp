@@ -21,13 +21,15 @@ struct FrameSize {
   int height;  // overscan included
 };
 
-/// Film positions of the rays of up to kPixelsPerBatch pixels of a row. Places that are left over repeat the last pixel.
+/// Film positions of the rays of the kPixelsPerBatch pixels of a row that begin at `column`. At the end of a row some may
+/// lie beyond it; their rays are not used.
 void place_rays(const FrameSize& size, int row, int column, TraceBatch& batch) {
+  const double left = column - size.overscan;
+  const double top = row - size.overscan;
   for (int i = 0; i < kBatchSize; ++i) {
-    const int pixel = std::min(column + i / kRaysPerPixel, size.width - 1);
     const int ray = i % kRaysPerPixel;
-    batch.x[i] = pixel - size.overscan + (ray % kRaysPerAxis + 0.5) / kRaysPerAxis;
-    batch.y[i] = row - size.overscan + (ray / kRaysPerAxis + 0.5) / kRaysPerAxis;
+    batch.x[i] = left + i / kRaysPerPixel + (ray % kRaysPerAxis + 0.5) / kRaysPerAxis;
+    batch.y[i] = top + (ray / kRaysPerAxis + 0.5) / kRaysPerAxis;
   }
 }
 
@@ -60,12 +62,13 @@ class HitCounter {
         counts_(surfaces_ * static_cast<std::size_t>(FrameSize(camera_).height), 0) {}
 
   void add(int row, int pixels, const TraceBatch& batch) {
-    for (int i = 0; i < pixels * kRaysPerPixel; ++i) {
-      if (!in_frame(camera_, batch.x[i], batch.y[i])) continue;
-      for (std::size_t k = 0; k < surfaces_; ++k) {
+    for (std::size_t k = 0; k < surfaces_; ++k) {
+      std::int64_t hits = 0;
+      for (int i = 0; i < pixels * kRaysPerPixel; ++i) {
         const bool hit = batch.surfaces[k].outcome[static_cast<std::size_t>(i)] == Outcome::Hit;
-        counts_[static_cast<std::size_t>(row) * surfaces_ + k] += hit;
+        hits += hit && in_frame(camera_, batch.x[i], batch.y[i]);
       }
+      counts_[static_cast<std::size_t>(row) * surfaces_ + k] += hits;
     }
   }
 
@@ -132,11 +135,13 @@ Rgba see(const TraceBatch& batch, std::size_t i, const std::vector<SurfaceLook>&
 Rgba average(const TraceBatch& batch, int pixel, const std::vector<SurfaceLook>& looks,
              const std::vector<std::size_t>& order) {
   Rgba sum{0, 0, 0, 0};
-  std::vector<std::size_t> by_depth;
+  std::vector<std::size_t> by_depth = order;
   for (int ray = 0; ray < kRaysPerPixel; ++ray) {
     const auto i = static_cast<std::size_t>(pixel * kRaysPerPixel + ray);
-    by_depth = order;
-    sort_by_depth(batch, i, by_depth);
+    if (order.size() > 1) {
+      by_depth = order;
+      sort_by_depth(batch, i, by_depth);
+    }
     const Rgba seen = see(batch, i, looks, by_depth);
     for (std::size_t c = 0; c < 4; ++c) sum[c] += seen[c];
   }

@@ -12,7 +12,7 @@ namespace {
 
 // Radius of the nearest marker, as a share of the frame's width.
 constexpr double kMarkerSize = 0.035;
-constexpr float kMarkerAlpha = 0.75F;
+constexpr float kMarkerAlpha = 0.6F;
 
 // Linear, working space; neighbours well apart, also for colour-blind eyes.
 constexpr std::array<Rgba, 6> kMarkerColours = {{{.90F, .35F, .02F, 1},

@@ -63,7 +63,7 @@ Imf::Compression imf_compression(ExrCompression compression) {
 
 /// Camera from world for row vectors, as EXR stores it.
 Imath::M44f world_to_camera(const Basis& axes, const Vec3& position) {
-  const Vec3 origin = axes.local_from_parent(-position);
+  const Vec3 origin = axes.local_from_parent(-position) + Vec3(0);  // + 0: no negative zeros
   Imath::M44f matrix;
   for (int i = 0; i < 3; ++i) {
     matrix[i][0] = static_cast<float>(axes.x[i]);

@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <bit>
+#include <cstdint>
 
 #include "pipeline/image/failure.h"
 
@@ -39,18 +40,6 @@ OIIO::TypeDesc oiio_type(SampleType type) {
   return OIIO::TypeDesc::FLOAT;
 }
 
-std::array<std::byte, 4> full_alpha(SampleType type) {
-  std::array<std::byte, 4> bytes{};
-  const float one = 1.0F;
-  switch (type) {
-    case SampleType::UInt8: bytes[0] = std::byte{0xff}; break;
-    case SampleType::UInt16: bytes[0] = bytes[1] = std::byte{0xff}; break;
-    case SampleType::Half: std::memcpy(bytes.data(), &kHalfOne, sizeof kHalfOne); break;
-    case SampleType::Float: std::memcpy(bytes.data(), &one, sizeof one); break;
-  }
-  return bytes;
-}
-
 /// Which channels of the file are R, G, B; grey files give the same three times.
 std::array<int, 3> colour_channels(const OIIO::ImageSpec& spec) {
   const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
@@ -60,23 +49,27 @@ std::array<int, 3> colour_channels(const OIIO::ImageSpec& spec) {
   return {0, 1, 2};
 }
 
-/// Channels as the file has them to RGBA.
-void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, EncodedImage& image) {
-  const std::size_t size = size_of(image.type);
+/// Channels as the file has them to RGBA; `Sample` is as large as a sample, `opaque` is full alpha.
+template <class Sample>
+void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, Sample opaque, EncodedImage& image) {
   const auto colours = colour_channels(spec);
-  const auto opaque = full_alpha(image.type);
+  const auto channels = static_cast<std::size_t>(spec.nchannels);
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  const std::size_t stride = size * static_cast<std::size_t>(spec.nchannels);
-  image.samples.resize(pixels * 4 * size);
-  std::byte* out = image.samples.data();
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const std::byte* in = file.data() + i * stride;
-    for (const int channel : colours) {
-      std::memcpy(out, in + static_cast<std::size_t>(channel) * size, size);
-      out += size;
-    }
-    std::memcpy(out, image.has_alpha ? in + static_cast<std::size_t>(spec.alpha_channel) * size : opaque.data(), size);
-    out += size;
+  image.samples.resize(pixels * 4 * sizeof(Sample));
+  const auto* in = reinterpret_cast<const Sample*>(file.data());
+  auto* out = reinterpret_cast<Sample*>(image.samples.data());
+  for (std::size_t i = 0; i < pixels; ++i, in += channels, out += 4) {
+    for (std::size_t c = 0; c < 3; ++c) out[c] = in[colours[c]];
+    out[3] = image.has_alpha ? in[spec.alpha_channel] : opaque;
+  }
+}
+
+void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, EncodedImage& image) {
+  switch (image.type) {
+    case SampleType::UInt8: return pack<std::uint8_t>(spec, file, 0xff, image);
+    case SampleType::UInt16: return pack<std::uint16_t>(spec, file, 0xffff, image);
+    case SampleType::Half: return pack<std::uint16_t>(spec, file, kHalfOne, image);
+    case SampleType::Float: return pack<std::uint32_t>(spec, file, std::bit_cast<std::uint32_t>(1.0F), image);
   }
 }
 
