@@ -10,7 +10,7 @@
 
 // Each kernel is compiled for these instruction sets; the loader picks one. Sanitizers are not up when it does.
 #if defined(__x86_64__) && !defined(LENSPLANE_SANITIZE)
-#define LENSPLANE_KERNEL [[gnu::target_clones("default", "arch=haswell", "arch=skylake-avx512")]]
+#define LENSPLANE_KERNEL [[gnu::target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")]]
 #else
 #define LENSPLANE_KERNEL
 #endif
@@ -18,32 +18,29 @@
 namespace lensplane {
 namespace {
 
-// Taylor series, whose remainders are below 1e-17 for |a| <= kBatchAlpha = 1. Horner's form, lowest term last.
-[[gnu::always_inline]] inline double sin_up_to_one(double a) {
-  const double q = a * a;
-  double sum = 1.0 / 355687428096000.0;       // 1/17!
-  sum = sum * q - 1.0 / 1307674368000.0;      // 1/15!
-  sum = sum * q + 1.0 / 6227020800.0;         // 1/13!
-  sum = sum * q - 1.0 / 39916800.0;           // 1/11!
-  sum = sum * q + 1.0 / 362880.0;             // 1/9!
-  sum = sum * q - 1.0 / 5040.0;               // 1/7!
-  sum = sum * q + 1.0 / 120.0;                // 1/5!
-  sum = sum * q - 1.0 / 6.0;                  // 1/3!
-  return a + a * q * sum;
+// Taylor series in q = a^2, whose remainders are below 1e-16 for a <= kBatchAlpha = 0.5. Horner's form.
+
+/// sin(a)/a
+[[gnu::always_inline]] inline double sine_ratio(double q) {
+  double sum = 1.0 / 6227020800.0;        // 1/13!
+  sum = sum * q - 1.0 / 39916800.0;       // 1/11!
+  sum = sum * q + 1.0 / 362880.0;         // 1/9!
+  sum = sum * q - 1.0 / 5040.0;           // 1/7!
+  sum = sum * q + 1.0 / 120.0;            // 1/5!
+  sum = sum * q - 1.0 / 6.0;              // 1/3!
+  return sum * q + 1.0;
 }
 
-[[gnu::always_inline]] inline double cos_up_to_one(double a) {
-  const double q = a * a;
-  double sum = -1.0 / 6402373705728000.0;     // 1/18!
-  sum = sum * q + 1.0 / 20922789888000.0;     // 1/16!
-  sum = sum * q - 1.0 / 87178291200.0;        // 1/14!
-  sum = sum * q + 1.0 / 479001600.0;          // 1/12!
-  sum = sum * q - 1.0 / 3628800.0;            // 1/10!
-  sum = sum * q + 1.0 / 40320.0;              // 1/8!
-  sum = sum * q - 1.0 / 720.0;                // 1/6!
-  sum = sum * q + 1.0 / 24.0;                 // 1/4!
+/// cos(a)
+[[gnu::always_inline]] inline double cosine(double q) {
+  double sum = -1.0 / 87178291200.0;      // 1/14!
+  sum = sum * q + 1.0 / 479001600.0;      // 1/12!
+  sum = sum * q - 1.0 / 3628800.0;        // 1/10!
+  sum = sum * q + 1.0 / 40320.0;          // 1/8!
+  sum = sum * q - 1.0 / 720.0;            // 1/6!
+  sum = sum * q + 1.0 / 24.0;             // 1/4!
   sum = sum * q - 0.5;
-  return 1.0 + q * sum;
+  return sum * q + 1.0;
 }
 
 }  // namespace
@@ -54,6 +51,7 @@ void start_rays(const Camera& camera, const BatchArray& x, const BatchArray& y, 
   const double centre_x = camera.width / 2.0;
   const double centre_y = camera.height / 2.0;
   rays.start_z = 0.0;
+#pragma GCC ivdep  // the arrays are all different ones
   for (int i = 0; i < kBatchSize; ++i) {
     const double right = (x[i] - centre_x) * slope;
     const double up = (centre_y - y[i]) * slope;
@@ -86,6 +84,9 @@ void advance_rays(double z, RayBatch& rays) {
 
 LENSPLANE_KERNEL
 void bend_rays(const Source& source, RayBatch& rays) {
+  const double m4 = weak_deflection(source.m, 1.0);
+  const double m4_squared = m4 * m4;
+  const double smallest_b2 = m4_squared / (kBatchAlpha * kBatchAlpha);
   for (int i = 0; i < kBatchSize; ++i) {
     const double vx = rays.dir_x[i], vy = rays.dir_y[i], vz = rays.dir_z[i];
     const double to_x = source.x - rays.start_x[i];
@@ -97,15 +98,19 @@ void bend_rays(const Source& source, RayBatch& rays) {
     const double across_z = -along * vz;
     const double across2 = across_x * across_x + across_y * across_y + across_z * across_z;
     const double b2 = to_x * to_x + to_y * to_y;
-    const double alpha = weak_deflection(source.m, std::sqrt(b2));
-    const double cosine = cos_up_to_one(alpha);
-    const double sine = sin_up_to_one(alpha) / std::sqrt(across2);
-    const double new_z = cosine * vz + sine * across_z;
-    rays.dir_x[i] = cosine * vx + sine * across_x;
-    rays.dir_y[i] = cosine * vy + sine * across_y;
+    // cos(alpha) and sin(alpha)/|across| from alpha^2 = (4m)^2/b^2, with one root and one division, which are what
+    // this loop waits for: product = 1/(b^2 |b across|).
+    const double b_across = std::sqrt(b2 * across2);
+    const double product = 1.0 / (b2 * b_across);
+    const double alpha2 = m4_squared * (product * b_across);
+    const double cos_alpha = cosine(alpha2);
+    const double sin_alpha = m4 * sine_ratio(alpha2) * (product * b2);
+    const double new_z = cos_alpha * vz + sin_alpha * across_z;
+    rays.dir_x[i] = cos_alpha * vx + sin_alpha * across_x;
+    rays.dir_y[i] = cos_alpha * vy + sin_alpha * across_y;
     rays.dir_z[i] = new_z;
-    // Written so that a NaN, from squares that overflow or underflow, is irregular, too.
-    const bool regular = (alpha <= kBatchAlpha) & (across2 > 0.0) & (b2 < std::numeric_limits<double>::max()) &
+    // Written so that whatever over- or underflows, or is a NaN, is irregular, too.
+    const bool regular = (b2 >= smallest_b2) & (product > 0.0) & (product < std::numeric_limits<double>::max()) &
                          (new_z < 0.0);
     rays.irregular[i] = regular ? rays.irregular[i] : 1.0;
   }
@@ -116,6 +121,7 @@ void enter_sphere(const Vec3& centre, double radius, double end_z, const RayBatc
   const double to_z = centre.z - rays.start_z;
   const double depth = end_z - rays.start_z;
   const double earliest = -kSurfaceTolerance * radius;
+#pragma GCC ivdep  // the arrays are all different ones
   for (int i = 0; i < kBatchSize; ++i) {
     const double to_x = centre.x - rays.start_x[i];
     const double to_y = centre.y - rays.start_y[i];
@@ -136,6 +142,7 @@ void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, 
   const double pixels_per_slope = 1.0 / slope_per_pixel(camera);
   const double width = camera.width;
   const double height = camera.height;
+#pragma GCC ivdep  // the arrays are all different ones
   for (int i = 0; i < kBatchSize; ++i) {
     const double per_depth = 1.0 / -rays.dir_z[i];
     const double moved_right = rays.dir_x[i] * per_depth - rays.first_right[i];

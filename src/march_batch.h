@@ -18,7 +18,7 @@ namespace lensplane {
 inline constexpr int kBatchSize = 256;
 
 /// Largest single bend, in radians, that the batches do themselves.
-inline constexpr double kBatchAlpha = 1.0;
+inline constexpr double kBatchAlpha = 0.5;
 
 /// Batches and march() agree on the direction, per bend, to this angle in radians.
 inline constexpr double kBatchError = 1e-15;

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "src/march_batch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "src/march.h"
+#include "src/surfaces.h"
+
+namespace lensplane {
+namespace {
+
+struct Film {
+  alignas(64) BatchArray x, y;
+};
+
+Camera test_camera(double fov_rad) {
+  Camera camera;
+  camera.width = 1920;
+  camera.height = 1080;
+  camera.fov_rad = fov_rad;
+  return camera;
+}
+
+void random_film(std::mt19937& random, const Camera& camera, Film& film) {
+  std::uniform_real_distribution<double> x(0, camera.width), y(0, camera.height);
+  for (int i = 0; i < kBatchSize; ++i) film.x[i] = x(random), film.y[i] = y(random);
+}
+
+TEST(MarchBatch, AgreesWithTheReferenceThroughRandomPlanes) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  int regular = 0;
+  int irregular = 0;
+  for (int scene = 0; scene < 200; ++scene) {
+    const Camera camera = test_camera(std::pow(10.0, -3.0 * scene / 200.0));
+    const int plane_count = 1 + scene % 5;
+    std::vector<LensPlane> planes;
+    for (int k = 0; k < plane_count; ++k) {
+      LensPlane plane{-10.0 * (k + 1), {}};
+      const double spread = -plane.z * camera.fov_rad / 2;
+      for (int s = 0; s < 3; ++s) {
+        plane.sources.push_back({0.01 * spread * camera.fov_rad, spread * normal(random), spread * normal(random)});
+      }
+      planes.push_back(plane);
+    }
+    Film film;
+    random_film(random, camera, film);
+    const auto rays = std::make_unique<RayBatch>();
+    start_rays(camera, film.x, film.y, *rays);
+    for (const LensPlane& plane : planes) {
+      advance_rays(plane.z, *rays);
+      for (const Source& source : plane.sources) bend_rays(source, *rays);
+    }
+    for (int i = 0; i < kBatchSize; ++i) {
+      const RayPath path = march(planes, Vec3(0), direction_from_pixel(camera, {film.x[i], film.y[i]}));
+      if (rays->irregular[i] != 0) {
+        ++irregular;
+        continue;
+      }
+      ++regular;
+      const RaySegment& last = path.segments.back();
+      double travelled = 0;
+      for (const RaySegment& s : path.segments) travelled += std::isinf(s.length) ? 0 : s.length;
+      // Each bend passes on the errors of those before it; close to a source they grow.
+      const double tolerance = kBatchError * 100 * static_cast<double>(plane_count);
+      EXPECT_NEAR(rays->dir_x[i], last.direction.x, tolerance);
+      EXPECT_NEAR(rays->dir_y[i], last.direction.y, tolerance);
+      EXPECT_NEAR(rays->dir_z[i], last.direction.z, tolerance);
+      EXPECT_NEAR(rays->travelled[i], travelled, 1e-12 * travelled);
+    }
+  }
+  EXPECT_GT(regular, 49000);
+  EXPECT_GT(irregular, 0);
+}
+
+TEST(MarchBatch, OneBendAgreesToItsErrorBoundOverAllAngles) {
+  const Camera camera = test_camera(0.5);
+  std::mt19937 random(4);
+  for (double alpha = 1e-18; alpha < kBatchAlpha; alpha *= 1.7) {
+    Film film;
+    random_film(random, camera, film);
+    const auto rays = std::make_unique<RayBatch>();
+    start_rays(camera, film.x, film.y, *rays);
+    advance_rays(-1, *rays);
+    const Source source{alpha * 5 / 4, 3, 4};  // about b = 5 from every ray
+    bend_rays(source, *rays);
+    for (int i = 0; i < kBatchSize; ++i) {
+      if (rays->irregular[i] != 0) continue;
+      const Vec3 start = direction_from_pixel(camera, {film.x[i], film.y[i]});
+      const RayPath path = march({{-1, {source}}}, Vec3(0), start);
+      const Vec3 ours(rays->dir_x[i], rays->dir_y[i], rays->dir_z[i]);
+      EXPECT_NEAR((ours - path.segments.back().direction).length(), 0, kBatchError) << alpha;
+    }
+  }
+}
+
+TEST(MarchBatch, MarksWhatItCannotDo) {
+  const Camera camera = test_camera(0.5);
+  const auto bend_centre = [&camera](const Source& source) {
+    Film film;
+    std::fill_n(film.x, kBatchSize, camera.width / 2.0);
+    std::fill_n(film.y, kBatchSize, camera.height / 2.0);
+    const auto rays = std::make_unique<RayBatch>();
+    start_rays(camera, film.x, film.y, *rays);
+    advance_rays(-1, *rays);
+    bend_rays(source, *rays);
+    return rays->irregular[0] != 0;
+  };
+  EXPECT_FALSE(bend_centre({0.01, 1, 0}));
+  EXPECT_FALSE(bend_centre({0.999 * kBatchAlpha / 4, 1, 0}));
+  EXPECT_TRUE(bend_centre({1.001 * kBatchAlpha / 4, 1, 0}));  // too strong
+  EXPECT_TRUE(bend_centre({1, 0, 0}));                        // exactly on the source
+  EXPECT_TRUE(bend_centre({1e-300, 1e-200, 0}));              // squares underflow
+  EXPECT_TRUE(bend_centre({1, 1e200, 0}));                    // squares overflow
+}
+
+TEST(MarchBatch, EntersSpheresWhereTheReferenceDoes) {
+  const Camera camera = test_camera(1.0);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> position(-10, 10), radius(0.01, 12);
+  int hits = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 centre(position(random), position(random), position(random) - 8);
+    const double r = radius(random);
+    const double end_z = trial % 2 ? -10.0 : -std::numeric_limits<double>::infinity();
+    Film film;
+    random_film(random, camera, film);
+    const auto rays = std::make_unique<RayBatch>();
+    start_rays(camera, film.x, film.y, *rays);
+    alignas(64) BatchArray entry;
+    enter_sphere(centre, r, end_z, *rays, entry);
+    for (int i = 0; i < kBatchSize; ++i) {
+      const Vec3 direction = direction_from_pixel(camera, {film.x[i], film.y[i]});
+      const double expected = sphere_entry(Vec3(0), direction, centre, r);
+      if (std::isfinite(expected) && expected <= end_z / direction.z) {
+        EXPECT_NEAR(entry[i], expected, 1e-12);
+        ++hits;
+      } else {
+        EXPECT_TRUE(std::isinf(entry[i]));
+      }
+    }
+  }
+  EXPECT_GT(hits, 1000);
+}
+
+}  // namespace
+}  // namespace lensplane
