@@ -101,7 +101,7 @@ void premultiply(Rgba& pixel) {
 }
 
 void unpremultiply(Rgba& pixel) {
-  if (pixel[3] == 0.0F) return;  // light without cover, a flame, say: stays as it is
+  if (pixel[3] == 0.0F) return;  // light without cover, of a flame, say: stays as it is
   for (std::size_t c = 0; c < 3; ++c) pixel[c] /= pixel[3];
 }
 
@@ -188,12 +188,10 @@ Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding&
     apply_rows(processor->getOptimizedCPUProcessor(bit_depth(image.type), OCIO::BIT_DEPTH_F32, kTables),
                image.samples.data(), image.type, image.width, image.height, picture.pixels.data());
   }
-  for_each_pixel(picture, [has_alpha](Rgba& pixel) {
-    if (has_alpha) {
-      premultiply(pixel);
-    } else {
-      pixel[3] = 1.0F;
-    }
+  for_each_pixel(picture, [has_alpha, premultiplied](Rgba& pixel) {
+    if (!has_alpha) pixel[3] = 1.0F;
+    const bool light_without_cover = premultiplied && pixel[3] == 0.0F;
+    if (!light_without_cover) premultiply(pixel);
   });
   return picture;
 }

@@ -99,10 +99,10 @@ std::string units_of(Dimension dimension) {
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   text = trimmed(text);
   std::string_view digits = text;
-  if (digits.starts_with('+')) digits.remove_prefix(1);  // from_chars knows minus only
+  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);  // from_chars knows minus only
   double number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error == std::errc::invalid_argument || digits.starts_with("+")) {
+  if (error == std::errc::invalid_argument) {
     return wrong(fmt::format("{} is not a number; {}", in_quotes(text), needed(dimension)));
   }
   if (error == std::errc::result_out_of_range) {

@@ -40,7 +40,7 @@ class TreeBuilder : public YAML::EventHandler {
     const auto found = anchors_.find(anchor);
     if (found == anchors_.end()) refuse(at(mark), "", "an alias inside of what it stands for");
     count_ += found->second.second;
-    refuse_too_many(mark);
+    refuse_too_many(at(mark));
     count_ -= 1;  // add() counts the root of the copy
     add(found->second.first, 0);
   }
@@ -71,9 +71,9 @@ class TreeBuilder : public YAML::EventHandler {
     }
   }
 
-  void refuse_too_many(const YAML::Mark& mark) const {
+  void refuse_too_many(const Location& location) const {
     if (count_ > kMaxYamlNodes) {
-      refuse(at(mark), "", fmt::format("more than {} values, aliases counted as what they stand for", kMaxYamlNodes));
+      refuse(location, "", fmt::format("more than {} values, aliases counted as what they stand for", kMaxYamlNodes));
     }
   }
 
@@ -101,7 +101,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void add(YamlNode node, YAML::anchor_t anchor, std::size_t count_before) {
     ++count_;
-    refuse_too_many({});
+    refuse_too_many(node.location);
     if (anchor != 0) anchors_[anchor] = {node, count_ - count_before};
     if (open_.empty()) {
       root_ = std::move(node);

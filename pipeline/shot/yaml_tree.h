@@ -33,8 +33,8 @@ struct YamlNode {
   YamlNode* find(const std::string& name);
 };
 
-// Bounds that no shot comes near: a file of this size keys a hundred values on ten thousand frames.
-inline constexpr std::size_t kMaxShotBytes = 8 << 20;
+// Bounds that no shot comes near: a file of this size keys ten values on ten thousand frames.
+inline constexpr std::size_t kMaxShotBytes = 4 << 20;
 inline constexpr int kMaxYamlDepth = 32;
 inline constexpr std::size_t kMaxYamlNodes = 500'000;
 

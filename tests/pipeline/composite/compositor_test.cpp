@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/composite/compositor.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "pipeline/composite/locator.h"
+#include "tests/src/scenes.h"
+
+namespace lensplane {
+namespace {
+
+std::shared_ptr<const Texture> flat(const Rgba& colour) {
+  return std::make_shared<const Texture>(Picture{1, 1, 0, 0, 1, 1, {colour}}, Wrap::Clamp);
+}
+
+Scene empty_scene(int width, int height, double fov_deg) {
+  Scene scene;
+  scene.camera.width = width;
+  scene.camera.height = height;
+  scene.camera.fov_rad = fov_deg * kDegree;
+  return scene;
+}
+
+Composite take_picture(const Scene& scene, const std::vector<SurfaceLook>& looks) {
+  return composite(Tracer(scene, plan_trace(scene, Method::ShinotsukaMakino)), scene, looks);
+}
+
+void expect_colour(const Rgba& got, const Rgba& expected) {
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(got[c], expected[c], 1e-6);
+}
+
+const Rgba kRed{1, 0, 0, 1}, kGreen{0, 1, 0, 1}, kBlue{0, 0, 1, 1}, kHalfRed{0.5F, 0, 0, 0.5F};
+
+TEST(Compositor, LaysNearerSurfacesOverFartherOnesWhateverTheirOrder) {
+  Scene scene = empty_scene(9, 9, 10);
+  const Surface near = Sphere{{0, 0, -100}, 2, {}}, far = Sphere{{0, 0, -200}, 10, {}};
+  scene.surfaces = {near, far, LatLong{}};
+  const SurfaceLook red{flat(kHalfRed), {}}, green{flat(kGreen), {}}, blue{flat(kBlue), {}};
+  expect_colour(take_picture(scene, {red, green, blue}).picture.at(4, 4), {0.5F, 0.5F, 0, 1});
+  scene.surfaces = {LatLong{}, far, near};
+  const Composite other = take_picture(scene, {blue, green, red});
+  expect_colour(other.picture.at(4, 4), {0.5F, 0.5F, 0, 1});
+  expect_colour(other.picture.at(0, 0), kBlue);
+}
+
+TEST(Compositor, AtInfinityPlatesLieOverSkiesAndLaterOverEarlier) {
+  Scene scene = empty_scene(3, 3, 10);
+  const SurfaceLook red{flat(kRed), {}}, green{flat(kGreen), {}};
+  scene.surfaces = {Plate{}, LatLong{}};
+  expect_colour(take_picture(scene, {red, green}).picture.at(1, 1), kRed);
+  scene.surfaces = {LatLong{}, Plate{}};
+  expect_colour(take_picture(scene, {red, green}).picture.at(1, 1), kGreen);
+  scene.surfaces = {Plate{}, Plate{}};
+  expect_colour(take_picture(scene, {red, green}).picture.at(1, 1), kGreen);
+}
+
+TEST(Compositor, NothingIsTransparentBlack) {
+  Scene scene = empty_scene(5, 5, 10);
+  scene.surfaces = {Sphere{{0, 0, 100}, 2, {}}};
+  const Composite result = take_picture(scene, {{flat(kRed), {}}});
+  for (const Rgba& pixel : result.picture.pixels) expect_colour(pixel, {0, 0, 0, 0});
+  EXPECT_EQ(result.hits[0], 0);
+}
+
+TEST(Compositor, SilhouettesAreCoveredByTheirShareOfRays) {
+  // A ball so large that its limb is a straight line through the middle of the frame.
+  Scene scene = empty_scene(5, 5, 1e-3);
+  scene.surfaces = {Sphere{{-1e6, 0, -1e3}, 1e6 - 1e-9, {}}};
+  const Composite result = take_picture(scene, {{flat(kRed), {}}});
+  EXPECT_NEAR(result.picture.at(2, 2)[3], 0.5, 0.01);
+  EXPECT_EQ(result.picture.at(0, 2)[3], 1);
+  EXPECT_EQ(result.picture.at(4, 2)[3], 0);
+}
+
+TEST(Compositor, CountsTheRaysOfTheFrameWithoutOverscan) {
+  Scene scene = empty_scene(6, 4, 10);
+  scene.surfaces = {Plate{}};
+  EXPECT_EQ(take_picture(scene, {{flat(kRed), {}}}).hits[0], 6 * 4 * 16);
+  scene.camera.overscan = 2;
+  const Composite result = take_picture(scene, {{flat(kRed), {}}});
+  EXPECT_EQ(result.hits[0], 6 * 4 * 16);
+  EXPECT_EQ(result.picture.width, 10);
+  EXPECT_EQ(result.picture.x, -2);
+  EXPECT_EQ(count_hits(Tracer(scene, plan_trace(scene, Method::ShinotsukaMakino)))[0], 6 * 4 * 16);
+}
+
+TEST(Compositor, LambertShadingIsTheCosineToTheLight) {
+  Scene scene = empty_scene(201, 201, 1);
+  const double radius = 1e3 * std::tan(0.45 * kDegree);
+  scene.surfaces = {Sphere{{0, 0, -1e3}, radius, {}}};
+  const Vec3 light = Vec3(0, 0, 1);  // from the camera
+  const Picture picture = take_picture(scene, {{flat({0.8F, 0.8F, 0.8F, 1}), light}}).picture;
+  EXPECT_NEAR(picture.at(100, 100)[0], 0.8, 1e-4);
+  // 45 pixels beside the centre of a disc of 90.45 pixels: the normal leans by asin(45/90.45).
+  const double lean = 45 / (radius / 1e3 / slope_per_pixel(scene.camera));
+  EXPECT_NEAR(picture.at(145, 100)[0], 0.8 * std::sqrt(1 - lean * lean), 2e-3);
+  // From behind it is black, but covers.
+  const Picture dark = take_picture(scene, {{flat(kRed), Vec3(0, 0, -1)}}).picture;
+  expect_colour(dark.at(100, 100), {0, 0, 0, 1});
+}
+
+TEST(Compositor, DoesNotDependOnTheNumberOfThreads) {
+  Scene scene = seed_fig6(60);
+  scene.surfaces.push_back(LatLong{});
+  const std::vector<SurfaceLook> looks = {{flat(kRed), {}}, {flat(kBlue), {}}};
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return take_picture(scene, looks);
+  };
+  const Composite one = with(1), two = with(2), seven = with(7);
+  EXPECT_EQ(one.picture.pixels, two.picture.pixels);
+  EXPECT_EQ(one.picture.pixels, seven.picture.pixels);
+  EXPECT_EQ(one.hits, seven.hits);
+}
+
+TEST(Locator, ShowsTheLensesWhereTheyAreAndBendsNothing) {
+  Scene scene = seed_scene(100, {-1e6, 0, 0}, {0, 1e6, 0}, {1e6, -1e6, 0});
+  scene.lenses.push_back({1, {0, 0, 1e9}});  // behind the camera
+  const LocatorView locator = make_locator(scene, {{flat(kRed), {}}});
+  EXPECT_TRUE(locator.scene.lenses.empty());
+  ASSERT_EQ(locator.scene.surfaces.size(), 4U);
+  ASSERT_EQ(locator.looks.size(), 4U);
+  EXPECT_EQ(std::get<Sphere>(locator.scene.surfaces[2]).centre, scene.lenses[1].position);
+  EXPECT_EQ(std::get<Sphere>(locator.scene.surfaces[1]).radius, std::get<Sphere>(locator.scene.surfaces[3]).radius);
+}
+
+}  // namespace
+}  // namespace lensplane

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/image/atomic_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <sstream>
+
+#include "tests/pipeline/expect_failure.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace lensplane {
+namespace {
+
+std::string contents(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  const std::filesystem::directory_iterator files(folder);
+  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+TEST(AtomicFile, WritesAndReplacesAndMakesFolders) {
+  const TemporaryFolder folder;
+  write_atomically(folder / "a/b/file.txt", std::string("first"));
+  write_atomically(folder / "a/b/file.txt", std::string("second"));
+  EXPECT_EQ(contents(folder / "a/b/file.txt"), "second");
+  EXPECT_EQ(files_in(folder / "a/b"), 1U);
+}
+
+TEST(AtomicFile, RefusesPlacesWhereNothingCanBeWritten) {
+  const TemporaryFolder folder;
+  folder.write("file", "x");
+  const Refusal below_a_file = refusal_of([&] { write_atomically(folder / "file/below.txt", std::string("y")); });
+  EXPECT_EQ(below_a_file.code, ExitCode::BadOutput);
+  EXPECT_THAT(below_a_file.line, testing::HasSubstr((folder / "file/below.txt").string() + ": cannot be written: "));
+  std::filesystem::create_directory(folder / "folder");
+  EXPECT_EQ(refusal_of([&] { write_atomically(folder / "folder", std::string("y")); }).code, ExitCode::BadOutput);
+  EXPECT_EQ(files_in(folder.path()), 2U);  // nothing half-written beside them
+}
+
+TEST(AtomicFile, FullDiskLeavesTheOldFileAndNoOther) {
+  const TemporaryFolder folder;
+  write_atomically(folder / "file", std::string("old"));
+  // A limit on the size of files stands for a full disk.
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1000, before.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  const Refusal refusal = refusal_of([&] { write_atomically(folder / "file", std::string(100000, 'x')); });
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_EQ(refusal.code, ExitCode::BadOutput);
+  EXPECT_EQ(contents(folder / "file"), "old");
+  EXPECT_EQ(files_in(folder.path()), 1U);
+}
+
+}  // namespace
+}  // namespace lensplane

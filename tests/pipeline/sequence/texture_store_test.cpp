@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/sequence/texture_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/image/png_writer.h"
+#include "tests/pipeline/expect_failure.h"
+#include "tests/pipeline/shot/example_shot.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace lensplane {
+namespace {
+
+using testing::HasSubstr;
+
+ColourConfig builtin() {
+  return ColourConfig::load(std::nullopt, nullptr);
+}
+
+void write_grey(const std::filesystem::path& path, float value) {
+  write_png(path, Picture{1, 1, 0, 0, 1, 1, {{value, value, value, 1}}}, "");
+}
+
+TEST(TextureStore, KeepsStillsAndReadsSequencesByFrame) {
+  const TemporaryFolder folder;
+  write_grey(folder / "earth.png", 1);
+  write_grey(folder / "bg.0001.png", 0);
+  write_grey(folder / "bg.0002.png", 1);
+  Shot shot = example_shot();
+  shot.layers[0].image.pattern = (folder / "earth.png").string();
+  shot.layers[1].image.pattern = (folder / "bg.####.png").string();
+  const ColourConfig colours = builtin();
+  TextureStore store(shot, colours);
+  EXPECT_EQ(store.texture(0, 1), store.texture(0, 2));
+  EXPECT_EQ(store.texture(1, 1)->picture().at(0, 0)[0], 0);
+  EXPECT_NEAR(store.texture(1, 2)->picture().at(0, 0)[0], 1, 1e-4);
+  EXPECT_NE(store.digest(1, 1), store.digest(1, 2));
+  const Refusal missing = refusal_of([&] { store.texture(1, 3); });
+  EXPECT_EQ(missing.code, ExitCode::BadInput);
+  EXPECT_EQ(missing.line, (folder / "bg.0003.png").string() + ": no such image");
+  EXPECT_EQ(refusal_of([&] { store.digest(1, 3); }).code, ExitCode::BadInput);
+}
+
+TEST(TextureStore, ColoursThatTheConfigDoesNotHaveAreRefusedWithTheirPlace) {
+  const auto line = [](const std::string& setting) {
+    return refusal_of([&] { check_colours(example_shot({setting}), builtin()); }).line;
+  };
+  EXPECT_EQ(line("colour.working=ACEScg"), "");
+  EXPECT_THAT(line("colour.working=AcesCG2"),
+              HasSubstr("--set colour.working:1:1: colour.working: \"AcesCG2\" is no colour space of the OCIO config; "
+                        "allowed: ACES2065-1, ACEScg"));
+  EXPECT_THAT(line("colour.display=Laser"), HasSubstr("is no display of the OCIO config; allowed: sRGB - Display"));
+  EXPECT_THAT(line("colour.view=Filmic"), HasSubstr("is no view of this display of the OCIO config; allowed: ACES 1.0"));
+  EXPECT_THAT(line("layers.earth.image={file: e.png, space: foo}"), HasSubstr("layers.earth.image.space: \"foo\" is no"));
+}
+
+}  // namespace
+}  // namespace lensplane

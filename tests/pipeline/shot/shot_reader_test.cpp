@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/shot/shot_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "src/constants.h"
+#include "tests/pipeline/expect_failure.h"
+#include "tests/pipeline/shot/example_shot.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace lensplane {
+namespace {
+
+using testing::HasSubstr;
+
+/// The line that refuses the example in which `from` is replaced by `to`.
+std::string line_for(const std::string& from, const std::string& to) {
+  std::string text = kExampleShot;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  const Refusal refusal = refusal_of([&] { shot_from_yaml(parse_yaml(text, "s.yaml")); });
+  EXPECT_EQ(refusal.line.find('\n'), std::string::npos);
+  if (!refusal.line.empty()) {
+    EXPECT_EQ(refusal.code, ExitCode::BadShot);
+  }
+  return refusal.line;
+}
+
+std::string line_for_setting(const std::string& setting) {
+  return refusal_of([&] { example_shot({setting}); }).line;
+}
+
+TEST(ShotReader, ReadsTheExample) {
+  const Shot shot = example_shot();
+  EXPECT_EQ(shot.name, "example");
+  EXPECT_EQ(shot.frames.size(), 3U);
+  EXPECT_EQ(shot.camera.width, 40);
+  EXPECT_EQ(shot.camera.height, 20);
+  EXPECT_DOUBLE_EQ(value_at(std::get<Keyed<double>>(shot.camera.fov), 0), 3 * kPi / 180);
+  ASSERT_EQ(shot.lenses.size(), 1U);
+  EXPECT_NEAR(value_at(shot.lenses[0].m, 0), 14770.63277528, 1e-8);
+  ASSERT_EQ(shot.layers.size(), 2U);
+  EXPECT_EQ(value_at(std::get<SphereLayer>(shot.layers[0].kind).radius, 0), 6.371e6);
+  EXPECT_EQ(shot.method, Method::ShinotsukaMakino);
+  EXPECT_EQ(shot.output.maps, (std::vector<bool>{true, true}));
+  EXPECT_EQ(shot.colour.working.text, "ACEScg");
+}
+
+TEST(ShotReader, ReadsWhatTheExampleLeavesOut) {
+  const Shot shot = example_shot({"fps=23.976", "camera.overscan=8", "output.maps=[background]",
+                                  "output.image={type: float, compression: piz}", "output.review=none",
+                                  "output.locator=beside", "layers.background.edge=mirror",
+                                  "layers.earth.image={file: e.png, space: Raw, alpha: straight}",
+                                  "camera.shutter={open: -0.25, close: 0.25, samples: 1}", "trace.law=auto",
+                                  "trace.tolerance=0.05 px", "trace.effects={finite_distance: auto}",
+                                  "layers.background.distance=infinity", "colour.view=Raw"});
+  EXPECT_EQ(shot.fps.numerator, 24000);
+  EXPECT_EQ(shot.fps.denominator, 1001);
+  EXPECT_EQ(shot.camera.overscan, 8);
+  EXPECT_EQ(shot.output.maps, (std::vector<bool>{false, true}));
+  EXPECT_EQ(shot.output.image.type, PixelType::Float);
+  EXPECT_EQ(shot.output.image.compression, ExrCompression::Piz);
+  EXPECT_FALSE(shot.output.review);
+  EXPECT_EQ(shot.output.locator, Locator::Beside);
+  EXPECT_EQ(std::get<PlateLayer>(shot.layers[1].kind).edge, Edge::Mirror);
+  EXPECT_EQ(shot.layers[0].image.space->text, "Raw");
+  EXPECT_EQ(shot.layers[0].image.alpha, AlphaKind::Straight);
+  EXPECT_EQ(shot.colour.view.text, "Raw");
+}
+
+TEST(ShotReader, FrameRatesAreRatios) {
+  const auto fps = [](const std::string& text) { return example_shot({"fps=" + text}).fps; };
+  EXPECT_EQ(fps("24000/1001").numerator, 24000);
+  EXPECT_EQ(fps("29.97").denominator, 1001);
+  EXPECT_EQ(fps("12.5").numerator, 25);
+  EXPECT_EQ(fps("12.5").denominator, 2);
+  for (const char* wrong : {"0", "-24", "24/0", "1/2/3", "fast", "nan", "1e9"}) {
+    EXPECT_THAT(line_for_setting(std::string("fps=") + wrong), HasSubstr("--set fps:1:1: fps: ")) << wrong;
+  }
+}
+
+TEST(ShotReader, KeysOfEveryKindAreRead) {
+  const Shot shot = example_shot({
+      "lenses.near.position={keys: {1001: [-8000 km, 0 km, -4e8 m], 1003: [8000 km, 0 km, -4e8 m]}, interpolate: smooth}",
+      "lenses.near.mass={keys: {1001: 0 kg, 1003: 2 kg}}",
+      "camera.fov={keys: {1001: 1 deg, 1002: 3 deg}, interpolate: step}",
+      "layers.earth.light={keys: {1001: [1, 0, 0], 1003: [0, 0, 2]}}"});
+  EXPECT_EQ(value_at(shot.lenses[0].position, 1002), Vec3(0, 0, -4e8));
+  EXPECT_EQ(value_at(*std::get<SphereLayer>(shot.layers[0].kind).light, 1003), Vec3(0, 0, 1));
+}
+
+TEST(ShotReader, RefusesWithPlaceKeyReasonAndWhatIsAllowed) {
+  EXPECT_EQ(line_for("fov: 3 deg", "fov: 3 m"),
+            "s.yaml:7:8: camera.fov: \"3 m\" is a length; an angle is needed, in deg, rad, arcmin, arcsec, mas");
+  EXPECT_EQ(line_for("fov: 3 deg", "fv: 3 deg"),
+            "s.yaml:7:3: camera.fv: unknown key; allowed: projection, resolution, fov, focal_length, film_width, "
+            "position, look_at, rotation, up, overscan, shutter, from");
+  EXPECT_EQ(line_for("  fov: 3 deg\n", ""),
+            "s.yaml:6:3: camera.fov: missing; needed: the full horizontal angle, like 3 deg (or focal_length and "
+            "film_width)");
+  EXPECT_EQ(line_for("fov: 3 deg", "fov: 3 deg\n  fov: 4 deg"), "s.yaml:8:3: fov: this key stands here twice");
+  EXPECT_EQ(line_for("mass: 1.989e31 kg", "mass: -1 kg"),
+            "s.yaml:10:11: lenses.near.mass: \"-1 kg\" is negative; allowed: 0 or more");
+  EXPECT_EQ(line_for("mass: 1.989e31 kg", "mass: nan kg"),
+            "s.yaml:10:11: lenses.near.mass: \"nan kg\" is not finite; a mass is needed, in g, kg, Msun, Mearth, Mjup");
+  EXPECT_EQ(line_for("[40, 20]", "[0, 20]"),
+            "s.yaml:6:16: camera.resolution.0: \"0\"; allowed: a whole number from 1 to 65536");
+  EXPECT_EQ(line_for("1001-1003", "1003-1001"),
+            "s.yaml:3:9: frames: \"1003-1001\" ends before it starts; write 1001-1003");
+  EXPECT_EQ(line_for("type: plate", "type: plane"),
+            "s.yaml:19:11: layers.background.type: \"plane\"; allowed: plate, latlong, sphere, ring, stars, povray");
+  EXPECT_EQ(line_for("lensplane: 1", "lensplane: 2"),
+            "s.yaml:1:12: lensplane: \"2\" is a version this program does not read; allowed: 1");
+  EXPECT_EQ(line_for("shot: example", "shot: a/b"),
+            "s.yaml:2:7: shot: \"a/b\" cannot be part of a file name; allowed: up to 100 letters, digits, _ and -");
+  EXPECT_EQ(line_for("name: background", "name: near"),
+            "s.yaml:18:11: layers.near.name: \"near\" is already the name of a lens or layer");
+  EXPECT_EQ(line_for("[0 m, 0 m, -4.36e8 m]", "[0 m, 0 m]"),
+            "s.yaml:11:15: lenses.near.position: needed: a list of three, [x, y, z], each a length, like 1 mm");
+}
+
+TEST(ShotReader, RefusesEveryOtherMistake) {
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"camera.fov=0 deg", "not greater than 0"},
+      {"camera.fov=180 deg", "less than 180 deg"},
+      {"camera.fov={keys: {1001: 3 deg, 1002: 181 deg}}", "camera.fov.keys.1002"},
+      {"camera.fov={keys: {}}", "no keys"},
+      {"camera.fov={keys: {1001: 3 deg}, interpolate: cubic}", "allowed: linear, smooth, step"},
+      {"camera.fov={keys: {1002: 3 deg, 1001: 2 deg}}", "does not come after frame 1002"},
+      {"camera.fov={keys: {soon: 3 deg}}", "not a number"},
+      {"camera.fov=[1, 2]", "a list where an angle is needed"},
+      {"camera.focal_length=35 mm", "given together with fov"},
+      {"camera.film_width=36 mm", "with focal_length only"},
+      {"camera.overscan=3", "even number"},
+      {"camera.overscan=-2", "whole number from 0"},
+      {"camera.resolution=[40.5, 20]", "whole number"},
+      {"camera.resolution=40", "[width, height]"},
+      {"camera.rotation=[1, 2, 3]", "has no unit"},
+      {"camera.look_at=moon", "no lens or layer"},
+      {"camera.look_at=background", "has no centre to look at"},
+      {"camera.up=[0, 1, 0]", "only together with look_at"},
+      {"camera.shutter={open: 1, close: 0}", "closes before it opens"},
+      {"camera.shutter.samples=0", "whole number from 1"},
+      {"camera.projection=round", "allowed: perspective, latlong, fisheye"},
+      {"camera=3", "a map is needed"},
+      {"lenses=3", "a list is needed"},
+      {"lenses.near=3", "a map with the key name"},
+      {"lenses.near.radius=3 km", "given together with mass"},
+      {"lenses.near.name=near!", "cannot be part of a file name"},
+      {"lenses.near.colour=red", "unknown key"},
+      {"layers=[]", "at least one layer"},
+      {"layers.earth.radius=0 m", "not greater than 0"},
+      {"layers.earth.radius=-1 m", "not greater than 0"},
+      {"layers.earth.light=[0, 0, 0]", "points nowhere"},
+      {"layers.earth.edge=black", "unknown key"},
+      {"layers.earth.image={space: Raw}", "layers.earth.image.file: missing"},
+      {"layers.earth.image={file: a.png, alpha: maybe}", "allowed: associated, straight, none"},
+      {"layers.background.edge=hard", "allowed: black, clamp, mirror, repeat"},
+      {"layers.background.distance=-3 m", "not greater than 0"},
+      {"trace.method=newton", "allowed: kishi, shinotsuka-makino, planes, geodesic"},
+      {"trace.law=strong", "allowed: weak, second-order, exact, auto"},
+      {"trace.tolerance=0 px", "not greater than 0"},
+      {"trace.tolerance=0.1 deg", "a number of pixels is needed"},
+      {"trace.effects={gravity: on}", "unknown key"},
+      {"trace.effects={finite_distance: maybe}", "allowed: on, off, auto"},
+      {"output.maps=some", "allowed: all, none"},
+      {"output.maps=[mars]", "allowed: earth, background"},
+      {"output.data=[colour]", "allowed: jacobian"},
+      {"output.image={type: double}", "allowed: half, float"},
+      {"output.image={compression: zap}", "allowed: none, rle"},
+      {"output.review=jpeg", "allowed: none, png"},
+      {"output.movie=gif", "allowed: none, mp4, prores"},
+      {"output.locator=left", "allowed: none, beside"},
+      {"colour={gamma: 2}", "unknown key"},
+      {"frames=1001-1003x0", "steps by 0"},
+      {"grade={}", "unknown key"},
+  };
+  for (const auto& [setting, reason] : mistakes) {
+    const Refusal refusal = refusal_of([&] { example_shot({setting}); });
+    EXPECT_THAT(refusal.line, HasSubstr(reason)) << setting;
+    EXPECT_EQ(refusal.code, ExitCode::BadShot) << setting;
+    EXPECT_EQ(refusal.line.find('\n'), std::string::npos) << setting;
+  }
+}
+
+TEST(ShotReader, SaysWhatIsNotAvailableYet) {
+  const std::pair<const char*, const char*> later[] = {
+      {"camera.projection=fisheye", "camera.projection: not available yet: fisheye"},
+      {"camera.overscan=auto", "camera.overscan: not available yet: auto"},
+      {"camera.shutter={open: -0.25, close: 0.25, samples: 8}", "camera.shutter.samples: not available yet"},
+      {"camera.from=track.chan", "camera.from: not available yet"},
+      {"layers.background.distance=2e9 m", "layers.background.distance: not available yet"},
+      {"layers.background={name: s, type: stars, catalogue: c.csv, exposure: 0.5}", "layers.s.type: not available yet: stars"},
+      {"layers.background={name: r, type: ring, centre: earth, normal: [0, 1, 0.3], inner: 9000 km, outer: 14000 km, "
+       "image: r.png}",
+       "layers.r.type: not available yet: ring"},
+      {"layers.background={name: p, type: povray, scene: a.pov, as: plate, distance: 2e9 m}",
+       "layers.p.type: not available yet: povray"},
+      {"trace.method=planes", "trace.method: not available yet: planes"},
+      {"trace.method=geodesic", "trace.method: not available yet: geodesic"},
+      {"trace={}", "trace: not available yet: trace.method: planes"},
+      {"trace.law=exact", "trace.law: not available yet: exact"},
+      {"trace.effects={finite_distance: on}", "trace.effects.finite_distance: not available yet"},
+      {"output.data=[jacobian]", "output.data.0: not available yet: jacobian"},
+      {"output.movie=mp4", "output.movie: not available yet: mp4"},
+  };
+  for (const auto& [setting, expected] : later) {
+    const Refusal refusal = refusal_of([&] { example_shot({setting}); });
+    EXPECT_THAT(refusal.line, HasSubstr(expected)) << setting;
+    EXPECT_EQ(refusal.code, ExitCode::BadShot);
+  }
+  EXPECT_THAT(line_for("  method: shinotsuka-makino", "  method: planes"), HasSubstr("s.yaml:22:11: trace.method: not"));
+}
+
+TEST(ShotReader, WhatIsNotAvailableYetIsStillChecked) {
+  EXPECT_THAT(line_for_setting("layers.background={name: r, type: ring, centre: earth, normal: [0, 1, 0], inner: 9 km, "
+                               "outer: 8 km, image: r.png}"),
+              HasSubstr("layers.r.outer: has to be larger than inner"));
+  EXPECT_THAT(line_for_setting("layers.background={name: r, type: ring, centre: mars, normal: [0, 1, 0], inner: 9 km, "
+                               "outer: 10 km, image: r.png}"),
+              HasSubstr("no layer of this shot"));
+  EXPECT_THAT(line_for_setting("layers.background={name: s, type: stars, catalogue: c.csv, exposure: bright}"),
+              HasSubstr("not a number"));
+  EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, scene: a.pov, as: card}"),
+              HasSubstr("allowed: plate, latlong"));
+  EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, as: plate}"), HasSubstr("scene: missing"));
+  // A mistake comes before what is not available.
+  const Refusal refusal = refusal_of([&] { example_shot({"trace.method=planes", "output.review=jpeg"}); });
+  EXPECT_THAT(refusal.line, HasSubstr("allowed: none, png"));
+}
+
+TEST(ShotReader, PathsAreRelativeToTheShotFile) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("example.yaml", kExampleShot);
+  const Shot shot = read_shot(path, {"output.directory=../out", "layers.earth.image=lensplane:textures/earth_day.jpg"});
+  EXPECT_EQ(shot.output.directory, (folder.path().parent_path() / "out"));
+  EXPECT_EQ(shot.layers[0].image.pattern, "lensplane:textures/earth_day.jpg");
+  EXPECT_EQ(shot.layers[1].image.pattern, (folder / "bg.####.exr").string());
+  EXPECT_EQ(read_shot(path).output.directory, folder / "renders/example");
+}
+
+}  // namespace
+}  // namespace lensplane

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/shot/shot_scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "src/constants.h"
+#include "tests/pipeline/expect_failure.h"
+#include "tests/pipeline/shot/example_shot.h"
+
+namespace lensplane {
+namespace {
+
+TEST(ShotScene, IsTheShotAtItsFrame) {
+  const Shot shot = example_shot(
+      {"lenses.near.position={keys: {1001: [0 m, 0 m, -1 m], 1003: [2 m, 0 m, -1 m]}}", "camera.overscan=4"});
+  const Scene scene = scene_at(shot, 1002);
+  EXPECT_EQ(scene.camera.width, 40);
+  EXPECT_EQ(scene.camera.overscan, 4);
+  EXPECT_EQ(scene.lenses[0].position, Vec3(1, 0, -1));
+  ASSERT_EQ(scene.surfaces.size(), 2U);
+  EXPECT_TRUE(std::holds_alternative<Sphere>(scene.surfaces[0]));
+  EXPECT_TRUE(std::holds_alternative<Plate>(scene.surfaces[1]));
+}
+
+TEST(ShotScene, FocalLengthAndFilmWidthMakeTheFieldOfView) {
+  Shot shot = example_shot();
+  shot.camera.fov = FocalLength{Keyed<double>::constant(0.018), Keyed<double>::constant(0.036)};
+  EXPECT_DOUBLE_EQ(scene_at(shot, 1001).camera.fov_rad, kPi / 2);
+}
+
+TEST(ShotScene, CameraLooksAtPointsLensesAndLayers) {
+  const auto forward = [](const std::string& target) {
+    return -scene_at(example_shot({"camera.position=[0 m, 3e8 m, 0 m]", "camera.look_at=" + target}), 1001).camera.axes.z;
+  };
+  const Vec3 to_lens = Vec3(0, -3e8, -4.36e8).normalized();
+  const Vec3 to_earth = Vec3(0, -3e8, -1.09e9).normalized();
+  EXPECT_LT((forward("near") - to_lens).length(), 1e-14);
+  EXPECT_LT((forward("earth") - to_earth).length(), 1e-14);
+  EXPECT_LT((forward("[0 m, 0 m, -1.09e9 m]") - to_earth).length(), 1e-14);
+}
+
+TEST(ShotScene, CameraThatLooksNowhereIsRefusedWithItsPlace) {
+  for (const char* target : {"[0 m, 0 m, 0 m]", "[0 m, 5 m, 0 m]"}) {
+    const Shot shot = example_shot({std::string("camera.look_at=") + target});
+    const Refusal refusal = refusal_of([&] { scene_at(shot, 1002); });
+    EXPECT_EQ(refusal.line,
+              "--set camera.look_at:1:1: camera.look_at: at frame 1002 the camera looks at its own position or straight "
+              "along up");
+  }
+}
+
+TEST(ShotScene, ProxyKeepsTheViewAndEvenOverscan) {
+  const Shot shot = proxy_of(example_shot({"camera.resolution=[1920, 1080]", "camera.overscan=100"}), 4);
+  EXPECT_EQ(shot.camera.width, 480);
+  EXPECT_EQ(shot.camera.height, 270);
+  EXPECT_EQ(shot.camera.overscan, 24);
+  EXPECT_EQ(proxy_of(shot, 64).camera.overscan % 2, 0);
+  EXPECT_EQ(proxy_of(example_shot(), 64).camera.width, 1);
+}
+
+}  // namespace
+}  // namespace lensplane
