@@ -8,7 +8,8 @@
 namespace lensplane {
 namespace {
 
-/// `v` made one long, or zero. Scaled first, so that the longest and the shortest vectors do not over- or underflow.
+/// `v` made one long, or zero. Scaled first, so that the longest and the shortest vectors do not over- or
+/// underflow.
 Vec3 unit(const Vec3& v) {
   const double longest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return longest > 0 ? (v / longest).normalized() : Vec3(0);
@@ -17,11 +18,13 @@ Vec3 unit(const Vec3& v) {
 }  // namespace
 
 Basis parent_from_local(const Basis& outer, const Basis& inner) {
-  return {outer.parent_from_local(inner.x), outer.parent_from_local(inner.y), outer.parent_from_local(inner.z)};
+  return {outer.parent_from_local(inner.x), outer.parent_from_local(inner.y),
+          outer.parent_from_local(inner.z)};
 }
 
 Basis local_from_parent(const Basis& frame, const Basis& basis) {
-  return {frame.local_from_parent(basis.x), frame.local_from_parent(basis.y), frame.local_from_parent(basis.z)};
+  return {frame.local_from_parent(basis.x), frame.local_from_parent(basis.y),
+          frame.local_from_parent(basis.z)};
 }
 
 Basis basis_from_zxy(const Vec3& angles_rad) {

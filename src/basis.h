@@ -2,8 +2,8 @@
 //
 // Vectors and orthonormal bases: how the orientation of cameras and bodies is stored.
 //
-// A `Basis` holds the three axes of a frame, expressed in its parent frame (nearly always the world). The world
-// is right-handed with y up; a camera in its own axes looks along -z with +x to its right.
+// A `Basis` holds the three axes of a frame, expressed in its parent frame (nearly always the world). The
+// world is right-handed with y up; a camera in its own axes looks along -z with +x to its right.
 
 #pragma once
 
@@ -36,8 +36,8 @@ Basis local_from_parent(const Basis& frame, const Basis& basis);
 /// counter-clockwise when looking against the axis.
 Basis basis_from_zxy(const Vec3& angles_rad);
 
-/// A camera's axes: -z along `forward`, y as near to `up` as possible. Both need not be of unit length. Returns a
-/// basis of zero vectors when `forward` is zero or parallel to `up`.
+/// A camera's axes: -z along `forward`, y as near to `up` as possible. Both need not be of unit length.
+/// Returns a basis of zero vectors when `forward` is zero or parallel to `up`.
 Basis basis_looking_along(const Vec3& forward, const Vec3& up);
 
 /// False for the outcome of basis_looking_along that has no direction.

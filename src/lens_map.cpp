@@ -25,13 +25,14 @@ void trace_row(const Tracer& tracer, int row, TraceBatch& batch, std::vector<Len
   const int width = tracer.camera().width + 2 * overscan;
   for (int column = 0; column < width; column += kBatchSize) {
     const int count = std::min(kBatchSize, width - column);
-    for (int i = 0; i < kBatchSize; ++i) {  // the last batch of a row reaches beyond it; those rays are not used
+    for (int i = 0; i < kBatchSize;
+         ++i) {  // the last batch of a row reaches beyond it; those rays are not used
       batch.x[i] = column + i - overscan + 0.5;
       batch.y[i] = row - overscan + 0.5;
     }
     tracer.trace(batch);
-    const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                              static_cast<std::size_t>(column);
+    const std::size_t first =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
     for (std::size_t k = 0; k < maps.size(); ++k) store(batch.surfaces[k], first, count, maps[k]);
   }
 }

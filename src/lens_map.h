@@ -17,8 +17,8 @@ struct LensMap {
   std::vector<float> s, t, valid;
 };
 
-/// Traces all pixel centres of the tracer's camera, one map per surface. Runs in parallel; the maps do not depend on
-/// the number of threads.
+/// Traces all pixel centres of the tracer's camera, one map per surface. Runs in parallel; the maps do not
+/// depend on the number of threads.
 std::vector<LensMap> trace_maps(const Tracer& tracer);
 
 }  // namespace lensplane

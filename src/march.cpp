@@ -17,7 +17,8 @@ bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// The nearest plane ahead of a ray at height `z`: -1 or planes.size() when there is none. `planes` descend in z.
+/// The nearest plane ahead of a ray at height `z`: -1 or planes.size() when there is none. `planes` descend
+/// in z.
 int plane_ahead(const std::vector<LensPlane>& planes, double z, double direction_z) {
   int index = 0;
   const int count = static_cast<int>(planes.size());
@@ -36,7 +37,7 @@ std::optional<Vec3> bend(const Vec3& direction, const Vec3& to_source, double m)
   const double b = length_of(to_source);
   const double alpha = weak_deflection(m, b);
   if (!std::isfinite(alpha)) return std::nullopt;
-  const Vec3 v_g = to_source / b;                                   // (1)
+  const Vec3 v_g = to_source / b;                                    // (1)
   const Vec3 towards_source = v_g - direction * v_g.dot(direction);  // (2), (3): V_ray x (V_g x V_ray)
   const double length = length_of(towards_source);
   if (length == 0.0) return std::nullopt;

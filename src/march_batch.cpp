@@ -8,7 +8,8 @@
 #include "src/deflection.h"
 #include "src/surfaces.h"
 
-// Each kernel is compiled for these instruction sets; the loader picks one. Sanitizers are not up when it does.
+// Each kernel is compiled for these instruction sets; the loader picks one. Sanitizers are not up when it
+// does.
 #if defined(__x86_64__) && !defined(LENSPLANE_SANITIZE)
 #define LENSPLANE_KERNEL [[gnu::target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")]]
 #else
@@ -22,23 +23,23 @@ namespace {
 
 /// sin(a)/a
 [[gnu::always_inline]] inline double sine_ratio(double q) {
-  double sum = 1.0 / 6227020800.0;        // 1/13!
-  sum = sum * q - 1.0 / 39916800.0;       // 1/11!
-  sum = sum * q + 1.0 / 362880.0;         // 1/9!
-  sum = sum * q - 1.0 / 5040.0;           // 1/7!
-  sum = sum * q + 1.0 / 120.0;            // 1/5!
-  sum = sum * q - 1.0 / 6.0;              // 1/3!
+  double sum = 1.0 / 6227020800.0;   // 1/13!
+  sum = sum * q - 1.0 / 39916800.0;  // 1/11!
+  sum = sum * q + 1.0 / 362880.0;    // 1/9!
+  sum = sum * q - 1.0 / 5040.0;      // 1/7!
+  sum = sum * q + 1.0 / 120.0;       // 1/5!
+  sum = sum * q - 1.0 / 6.0;         // 1/3!
   return sum * q + 1.0;
 }
 
 /// cos(a)
 [[gnu::always_inline]] inline double cosine(double q) {
-  double sum = -1.0 / 87178291200.0;      // 1/14!
-  sum = sum * q + 1.0 / 479001600.0;      // 1/12!
-  sum = sum * q - 1.0 / 3628800.0;        // 1/10!
-  sum = sum * q + 1.0 / 40320.0;          // 1/8!
-  sum = sum * q - 1.0 / 720.0;            // 1/6!
-  sum = sum * q + 1.0 / 24.0;             // 1/4!
+  double sum = -1.0 / 87178291200.0;  // 1/14!
+  sum = sum * q + 1.0 / 479001600.0;  // 1/12!
+  sum = sum * q - 1.0 / 3628800.0;    // 1/10!
+  sum = sum * q + 1.0 / 40320.0;      // 1/8!
+  sum = sum * q - 1.0 / 720.0;        // 1/6!
+  sum = sum * q + 1.0 / 24.0;         // 1/4!
   sum = sum * q - 0.5;
   return sum * q + 1.0;
 }
@@ -98,8 +99,8 @@ void bend_rays(const Source& source, RayBatch& rays) {
     const double across_z = -along * vz;
     const double across2 = across_x * across_x + across_y * across_y + across_z * across_z;
     const double b2 = to_x * to_x + to_y * to_y;
-    // cos(alpha) and sin(alpha)/|across| from alpha^2 = (4m)^2/b^2, with one root and one division, which are what
-    // this loop waits for: product = 1/(b^2 |b across|).
+    // cos(alpha) and sin(alpha)/|across| from alpha^2 = (4m)^2/b^2, with one root and one division, which are
+    // what this loop waits for: product = 1/(b^2 |b across|).
     const double b_across = std::sqrt(b2 * across2);
     const double product = 1.0 / (b2 * b_across);
     const double alpha2 = m4_squared * (product * b_across);
@@ -110,8 +111,8 @@ void bend_rays(const Source& source, RayBatch& rays) {
     rays.dir_y[i] = cos_alpha * vy + sin_alpha * across_y;
     rays.dir_z[i] = new_z;
     // Written so that whatever over- or underflows, or is a NaN, is irregular, too.
-    const bool regular = (b2 >= smallest_b2) & (product > 0.0) & (product < std::numeric_limits<double>::max()) &
-                         (new_z < 0.0);
+    const bool regular = (b2 >= smallest_b2) & (product > 0.0) &
+                         (product < std::numeric_limits<double>::max()) & (new_z < 0.0);
     rays.irregular[i] = regular ? rays.irregular[i] : 1.0;
   }
 }
@@ -129,7 +130,8 @@ void enter_sphere(const Vec3& centre, double radius, double end_z, const RayBatc
     const double across_x = to_x - along * rays.dir_x[i];
     const double across_y = to_y - along * rays.dir_y[i];
     const double across_z = to_z - along * rays.dir_z[i];
-    const double half_chord2 = radius * radius - (across_x * across_x + across_y * across_y + across_z * across_z);
+    const double half_chord2 =
+        radius * radius - (across_x * across_x + across_y * across_y + across_z * across_z);
     const double near = along - std::sqrt(half_chord2 > 0.0 ? half_chord2 : 0.0);
     const bool enters = (half_chord2 >= 0.0) & (near >= earliest) & (near <= depth / rays.dir_z[i]);
     entry[i] = enters ? near : std::numeric_limits<double>::infinity();
@@ -137,8 +139,8 @@ void enter_sphere(const Vec3& centre, double radius, double end_z, const RayBatc
 }
 
 LENSPLANE_KERNEL
-void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, const RayBatch& rays, BatchArray& s,
-                BatchArray& t, BatchArray& in_front) {
+void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, const RayBatch& rays,
+                BatchArray& s, BatchArray& t, BatchArray& in_front) {
   const double pixels_per_slope = 1.0 / slope_per_pixel(camera);
   const double width = camera.width;
   const double height = camera.height;
@@ -149,7 +151,8 @@ void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, 
     const double moved_up = rays.dir_y[i] * per_depth - rays.first_up[i];
     s[i] = (x[i] + moved_right * pixels_per_slope) / width;
     t[i] = 1.0 - (y[i] - moved_up * pixels_per_slope) / height;
-    const bool seen = (rays.dir_z[i] < 0.0) & (std::abs(s[i]) <= kPlateLimit) & (std::abs(t[i]) <= kPlateLimit);
+    const bool seen =
+        (rays.dir_z[i] < 0.0) & (std::abs(s[i]) <= kPlateLimit) & (std::abs(t[i]) <= kPlateLimit);
     in_front[i] = seen ? 1.0 : 0.0;
   }
 }

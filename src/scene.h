@@ -2,8 +2,8 @@
 //
 // The vocabulary of lensplane: one instant of a shot, as plain data.
 //
-// World: right-handed, y up, metres, double precision. Film: x to the right, y down from the top row, in pixels;
-// the centre of the first pixel is (0.5, 0.5).
+// World: right-handed, y up, metres, double precision. Film: x to the right, y down from the top row, in
+// pixels; the centre of the first pixel is (0.5, 0.5).
 
 #pragma once
 
@@ -16,9 +16,9 @@ namespace lensplane {
 
 /// A perspective camera with square pixels.
 struct Camera {
-  int width = 0;     // pixels of the output frame
-  int height = 0;    // pixels of the output frame
-  int overscan = 0;  // further pixels on every side; the field of view does not count them
+  int width = 0;       // pixels of the output frame
+  int height = 0;      // pixels of the output frame
+  int overscan = 0;    // further pixels on every side; the field of view does not count them
   double fov_rad = 0;  // full horizontal angle across `width`, in (0, pi)
   Vec3 position{0};    // metres
   Basis axes;          // world from camera: looks along -z, +x to the right, +y up
@@ -34,11 +34,12 @@ struct Lens {
 /// (s, t): (0, 0) is the frame's lower left corner, (1, 1) its upper right. Outside the frame they go on.
 struct Plate {};
 
-/// A picture around everything, at infinity. s = .5 looks along the world's -z, s = .75 along +x; t = 1 is up.
+/// A picture around everything, at infinity. s = .5 looks along the world's -z, s = .75 along +x; t = 1 is
+/// up.
 struct LatLong {};
 
-/// An opaque ball, seen from outside. s = .5 is longitude 0, which lies along the body's +z, east to the right;
-/// t = 1 is the north pole, along its +y.
+/// An opaque ball, seen from outside. s = .5 is longitude 0, which lies along the body's +z, east to the
+/// right; t = 1 is the north pole, along its +y.
 struct Sphere {
   Vec3 centre{0};     // metres
   double radius = 0;  // metres, > 0

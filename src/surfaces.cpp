@@ -19,7 +19,8 @@ SurfaceHit meet_plate(const Camera& camera, FilmPosition film, const Vec3& first
   const double per_pixel = slope_per_pixel(camera);
   const double moved_right = (last.x / -last.z - first.x / -first.z) / per_pixel;
   const double moved_up = (last.y / -last.z - first.y / -first.z) / per_pixel;
-  const TextureCoordinates st{(film.x + moved_right) / camera.width, 1.0 - (film.y - moved_up) / camera.height};
+  const TextureCoordinates st{(film.x + moved_right) / camera.width,
+                              1.0 - (film.y - moved_up) / camera.height};
   if (!(std::abs(st.s) <= kPlateLimit && std::abs(st.t) <= kPlateLimit)) return hit;
   return {Outcome::Hit, st, kInfinity};
 }
@@ -56,7 +57,8 @@ TextureCoordinates st_from_sky_direction(const Vec3& d) {
 Vec3 sky_direction_from_st(TextureCoordinates st) {
   const double longitude = (st.s - 0.5) * 2.0 * kPi;
   const double latitude = (st.t - 0.5) * kPi;
-  return {std::sin(longitude) * std::cos(latitude), std::sin(latitude), -std::cos(longitude) * std::cos(latitude)};
+  return {std::sin(longitude) * std::cos(latitude), std::sin(latitude),
+          -std::cos(longitude) * std::cos(latitude)};
 }
 
 TextureCoordinates st_from_sphere_normal(const Vec3& n) {
@@ -66,7 +68,8 @@ TextureCoordinates st_from_sphere_normal(const Vec3& n) {
 Vec3 sphere_normal_from_st(TextureCoordinates st) {
   const double longitude = (st.s - 0.5) * 2.0 * kPi;
   const double latitude = (st.t - 0.5) * kPi;
-  return {std::sin(longitude) * std::cos(latitude), std::sin(latitude), std::cos(longitude) * std::cos(latitude)};
+  return {std::sin(longitude) * std::cos(latitude), std::sin(latitude),
+          std::cos(longitude) * std::cos(latitude)};
 }
 
 SurfaceHit meet(const Surface& surface, const Camera& camera, FilmPosition film, const RayPath& path) {

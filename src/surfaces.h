@@ -31,8 +31,8 @@ struct SurfaceHit {
   double distance = 0;  // metres along the bent ray; infinite for plates and skies
 };
 
-/// A ray that starts this share of the radius inside a ball still enters it: so a ball that reaches through a lens
-/// plane has no seam there.
+/// A ray that starts this share of the radius inside a ball still enters it: so a ball that reaches through a
+/// lens plane has no seam there.
 inline constexpr double kSurfaceTolerance = 1e-9;
 
 /// Plate coordinates beyond this, in frames, have no picture: the ray runs along the screen.

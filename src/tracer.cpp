@@ -40,14 +40,16 @@ void meet_sphere(const Sphere& sphere, const RayBatch& rays, double end_z, Surfa
     if (!(entry[i] < kInfinity) || surface.outcome[i] == Outcome::Hit) continue;
     const Vec3 normal = point_on_ray(rays, i, entry[i]) - sphere.centre;
     set(surface, i,
-        {Outcome::Hit, st_from_sphere_normal(sphere.axes.local_from_parent(normal)), rays.travelled[i] + entry[i]});
+        {Outcome::Hit, st_from_sphere_normal(sphere.axes.local_from_parent(normal)),
+         rays.travelled[i] + entry[i]});
   }
 }
 
 void meet_sky(const Camera& camera, const RayBatch& rays, SurfaceBatch& surface) {
   for (int i = 0; i < kBatchSize; ++i) {
     const Vec3 direction(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]);
-    set(surface, i, {Outcome::Hit, st_from_sky_direction(camera.axes.parent_from_local(direction)), kInfinity});
+    set(surface, i,
+        {Outcome::Hit, st_from_sky_direction(camera.axes.parent_from_local(direction)), kInfinity});
   }
 }
 

@@ -2,8 +2,8 @@
 //
 // The tracer: Scene + Plan -> what any film position sees on every surface.
 //
-// Film positions come in batches; they may lie anywhere, not only at pixel centres. A ray's result depends on its film
-// position alone, not on the batch it came in. One Tracer may be used from many threads.
+// Film positions come in batches; they may lie anywhere, not only at pixel centres. A ray's result depends on
+// its film position alone, not on the batch it came in. One Tracer may be used from many threads.
 
 #pragma once
 
@@ -24,7 +24,7 @@ struct SurfaceBatch {
 
 /// A batch of film positions, in, and what they see, out.
 struct TraceBatch {
-  alignas(64) BatchArray x{}, y{};      // pixels; all kBatchSize must be finite
+  alignas(64) BatchArray x{}, y{};     // pixels; all kBatchSize must be finite
   std::vector<SurfaceBatch> surfaces;  // in the order of Scene::surfaces; where not Hit, s = t = 0
 };
 

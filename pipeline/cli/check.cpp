@@ -20,9 +20,9 @@ std::string counted(std::size_t count, std::string_view noun, std::string_view p
 
 void run_check(const Options& options) {
   const Shot shot = shot_of(options);
-  check_colours(shot, ColourConfig::load(
-                          shot.colour.config ? std::optional(shot.colour.config->text) : std::nullopt,
-                          std::getenv("OCIO")));
+  check_colours(
+      shot, ColourConfig::load(shot.colour.config ? std::optional(shot.colour.config->text) : std::nullopt,
+                               std::getenv("OCIO")));
   for (const int frame : shot.frames) scene_at(shot, frame);
   fmt::print("{}: right: {} of {} x {}, {}, {}\n", shot.file, counted(shot.frames.size(), "frame", "frames"),
              shot.camera.width, shot.camera.height, counted(shot.lenses.size(), "lens", "lenses"),

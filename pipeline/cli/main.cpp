@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The program: reads the command line, runs the command, and turns whatever goes wrong into one line and an exit code.
+// The program: reads the command line, runs the command, and turns whatever goes wrong into one line and an
+// exit code.
 
 #include <fmt/format.h>
 
@@ -27,9 +28,11 @@ extern "C" void request_interrupt(int signal) {
 
 void run(const lensplane::Options& options) {
   switch (options.command) {
-    case lensplane::Command::Check: return lensplane::run_check(options);
+    case lensplane::Command::Check:
+      return lensplane::run_check(options);
     case lensplane::Command::Render:
-    case lensplane::Command::Map: return lensplane::run_render(options, [] { return interrupt_requested != 0; });
+    case lensplane::Command::Map:
+      return lensplane::run_render(options, [] { return interrupt_requested != 0; });
   }
 }
 

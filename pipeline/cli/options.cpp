@@ -30,13 +30,15 @@ Exit codes: 0 done; 1 the shot or the command line is wrong; 2 an input is missi
 
 void add_common(CLI::App& command, Options& options) {
   command.add_option("SHOT", options.shot, "the shot file")->required();
-  command.add_option("--set", options.settings, "put a value over the shot's: key.path=value; may be repeated")
+  command
+      .add_option("--set", options.settings, "put a value over the shot's: key.path=value; may be repeated")
       ->allow_extra_args(false);
 }
 
 void add_rendering(CLI::App& command, Options& options) {
   command.add_option("-f,--frames", options.frames, "the frames: 1001, 1001-1048, 1001-1100x2, with commas");
-  command.add_option("--proxy", options.proxy, "render at 1/N of the resolution")->check(CLI::Range(1, kMaxProxy));
+  command.add_option("--proxy", options.proxy, "render at 1/N of the resolution")
+      ->check(CLI::Range(1, kMaxProxy));
   command.add_option("--threads", options.threads, "threads to use (else one for each core)")
       ->check(CLI::Range(1, kMaxThreads));
   command.add_option("--output", options.output, "the folder for everything that is written");

@@ -37,7 +37,8 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
   const Shot shot = shot_of(options);
   const std::vector<int> frames = frames_of(options, shot);
   const int threads = threads_of(options);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
   OIIO::attribute("threads", threads);
   Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
 
@@ -50,14 +51,17 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
   {
     Progress progress(frames.size(), options.quiet);
     reports = timed(seconds, [&] {
-      return render_sequence(shot, colours, frames, tasks,
-                             {[&progress](const FrameReport& report) { progress.frame_done(report); }, interrupted});
+      return render_sequence(
+          shot, colours, frames, tasks,
+          {[&progress](const FrameReport& report) { progress.frame_done(report); }, interrupted});
     });
   }
   write_statistics(options, shot, threads, seconds, reports);
   if (reports.size() < frames.size()) {
-    throw Failure(ExitCode::TryAgain, fmt::format("lensplane: interrupted with {} of {} frames done; the same command goes on from there",
-                                                  reports.size(), frames.size()));
+    throw Failure(
+        ExitCode::TryAgain,
+        fmt::format("lensplane: interrupted with {} of {} frames done; the same command goes on from there",
+                    reports.size(), frames.size()));
   }
   if (!options.quiet) fmt::print("{} frames in {}\n", frames.size(), shot.output.directory.string());
 }

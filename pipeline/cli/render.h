@@ -10,8 +10,8 @@
 
 namespace lensplane {
 
-/// Makes the frames that `options` ask for: everything, or for Command::Map the maps alone. Begins no frame after
-/// `interrupted()` holds. Throws Failure.
+/// Makes the frames that `options` ask for: everything, or for Command::Map the maps alone. Begins no frame
+/// after `interrupted()` holds. Throws Failure.
 void run_render(const Options& options, const std::function<bool()>& interrupted);
 
 }  // namespace lensplane

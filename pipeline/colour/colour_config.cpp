@@ -25,9 +25,12 @@ struct KnownSpace {
   Chromaticities chromaticities;
 };
 
-// Linear spaces of the ACES and sRGB families; primaries from SMPTE ST 2065-1, ACES TB-2014-004, and ITU-R BT.709.
+// Linear spaces of the ACES and sRGB families; primaries from SMPTE ST 2065-1, ACES TB-2014-004, and ITU-R
+// BT.709.
 constexpr std::array<KnownSpace, 3> kKnownSpaces = {{
-    {"lin_ap1_scene", {"ACEScg", "lin_ap1"}, {{{.713F, .293F}, {.165F, .830F}, {.128F, .044F}, {.32168F, .33767F}}}},
+    {"lin_ap1_scene",
+     {"ACEScg", "lin_ap1"},
+     {{{.713F, .293F}, {.165F, .830F}, {.128F, .044F}, {.32168F, .33767F}}}},
     {"lin_ap0_scene",
      {"ACES2065-1", "lin_ap0"},
      {{{.7347F, .2653F}, {0.F, 1.F}, {.0001F, -.077F}, {.32168F, .33767F}}}},
@@ -55,7 +58,8 @@ std::string one_line(std::string text) {
 
 OCIO::ConstConfigRcPtr load_file(const std::string& path, const std::string& named_by) {
   const auto refuse = [&](const std::string& reason) {
-    throw Failure(ExitCode::BadInput, fmt::format("{}: the OCIO config that {} names: {}", path, named_by, reason));
+    throw Failure(ExitCode::BadInput,
+                  fmt::format("{}: the OCIO config that {} names: {}", path, named_by, reason));
   };
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) refuse("no such file");
@@ -71,25 +75,30 @@ OCIO::ConstConfigRcPtr load_file(const std::string& path, const std::string& nam
 
 OCIO::BitDepth bit_depth(SampleType type) {
   switch (type) {
-    case SampleType::UInt8: return OCIO::BIT_DEPTH_UINT8;
-    case SampleType::UInt16: return OCIO::BIT_DEPTH_UINT16;
-    case SampleType::Half: return OCIO::BIT_DEPTH_F16;
-    case SampleType::Float: break;
+    case SampleType::UInt8:
+      return OCIO::BIT_DEPTH_UINT8;
+    case SampleType::UInt16:
+      return OCIO::BIT_DEPTH_UINT16;
+    case SampleType::Half:
+      return OCIO::BIT_DEPTH_F16;
+    case SampleType::Float:
+      break;
   }
   return OCIO::BIT_DEPTH_F32;
 }
 
 /// Applies `processor` to rows of RGBA, in parallel, from one buffer to another.
-void apply_rows(const OCIO::ConstCPUProcessorRcPtr& processor, const void* in, SampleType type, int width, int height,
-                Rgba* out) {
+void apply_rows(const OCIO::ConstCPUProcessorRcPtr& processor, const void* in, SampleType type, int width,
+                int height, Rgba* out) {
   const std::size_t row_in = static_cast<std::size_t>(width) * 4 * size_of(type);
   const std::size_t row_out = static_cast<std::size_t>(width);
   tbb::parallel_for(tbb::blocked_range<int>(0, height, 16), [&](const tbb::blocked_range<int>& rows) {
-    auto* source = static_cast<std::byte*>(const_cast<void*>(in)) + static_cast<std::size_t>(rows.begin()) * row_in;
+    auto* source =
+        static_cast<std::byte*>(const_cast<void*>(in)) + static_cast<std::size_t>(rows.begin()) * row_in;
     Rgba* target = out + static_cast<std::size_t>(rows.begin()) * row_out;
     const long count = static_cast<long>(rows.size());
-    const OCIO::PackedImageDesc from(source, width, count, 4, bit_depth(type), OCIO::AutoStride, OCIO::AutoStride,
-                                     OCIO::AutoStride);
+    const OCIO::PackedImageDesc from(source, width, count, 4, bit_depth(type), OCIO::AutoStride,
+                                     OCIO::AutoStride, OCIO::AutoStride);
     OCIO::PackedImageDesc to(target, width, count, 4, OCIO::BIT_DEPTH_F32, OCIO::AutoStride, OCIO::AutoStride,
                              OCIO::AutoStride);
     processor->apply(from, to);
@@ -183,8 +192,8 @@ Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding&
                image.height, picture.pixels.data());
   } else {
     // From 8 and 16 bits OCIO looks the curves up in exact tables.
-    constexpr auto kTables =
-        static_cast<OCIO::OptimizationFlags>(OCIO::OPTIMIZATION_LOSSLESS | OCIO::OPTIMIZATION_COMP_SEPARABLE_PREFIX);
+    constexpr auto kTables = static_cast<OCIO::OptimizationFlags>(OCIO::OPTIMIZATION_LOSSLESS |
+                                                                  OCIO::OPTIMIZATION_COMP_SEPARABLE_PREFIX);
     apply_rows(processor->getOptimizedCPUProcessor(bit_depth(image.type), OCIO::BIT_DEPTH_F32, kTables),
                image.samples.data(), image.type, image.width, image.height, picture.pixels.data());
   }
@@ -196,15 +205,16 @@ Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding&
   return picture;
 }
 
-Picture ColourConfig::to_display(const Picture& picture, const std::string& working, const std::string& display,
-                                 const std::string& view) const {
+Picture ColourConfig::to_display(const Picture& picture, const std::string& working,
+                                 const std::string& display, const std::string& view) const {
   const auto transform = OCIO::DisplayViewTransform::Create();
   transform->setSrc(working.c_str());
   transform->setDisplay(display.c_str());
   transform->setView(view.c_str());
   const auto processor = config_->getProcessor(transform)->getDefaultCPUProcessor();
   Picture shown = picture;
-  apply_rows(processor, picture.pixels.data(), SampleType::Float, picture.width, picture.height, shown.pixels.data());
+  apply_rows(processor, picture.pixels.data(), SampleType::Float, picture.width, picture.height,
+             shown.pixels.data());
   return shown;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Colour management: an OpenColorIO config, and the two ways in which it is used: from an image file's encoding to the
-// working space, and from the working space to a display.
+// Colour management: an OpenColorIO config, and the two ways in which it is used: from an image file's
+// encoding to the working space, and from the working space to a display.
 
 #pragma once
 
@@ -26,8 +26,8 @@ struct ImageEncoding {
 
 class ColourConfig {
  public:
-  /// The config of `path`, else that of `$OCIO` (`environment`, null or empty when not set), else the built-in one.
-  /// Throws Failure (BadInput) that names the file which cannot be used, and why.
+  /// The config of `path`, else that of `$OCIO` (`environment`, null or empty when not set), else the
+  /// built-in one. Throws Failure (BadInput) that names the file which cannot be used, and why.
   static ColourConfig load(const std::optional<std::string>& path, const char* environment);
 
   bool has_space(const std::string& name) const;
@@ -48,7 +48,8 @@ class ColourConfig {
   std::optional<Chromaticities> chromaticities(const std::string& space) const;
 
   /// The picture in linear light in the working space, premultiplied. Runs in parallel.
-  Picture to_working(const EncodedImage& image, const ImageEncoding& encoding, const std::string& working) const;
+  Picture to_working(const EncodedImage& image, const ImageEncoding& encoding,
+                     const std::string& working) const;
 
   /// A picture in the working space as a display shows it, by a view. Alpha is taken as shown over black.
   Picture to_display(const Picture& picture, const std::string& working, const std::string& display,

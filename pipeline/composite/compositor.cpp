@@ -21,8 +21,8 @@ struct FrameSize {
   int height;  // overscan included
 };
 
-/// Film positions of the rays of the kPixelsPerBatch pixels of a row that begin at `column`. At the end of a row some may
-/// lie beyond it; their rays are not used.
+/// Film positions of the rays of the kPixelsPerBatch pixels of a row that begin at `column`. At the end of a
+/// row some may lie beyond it; their rays are not used.
 void place_rays(const FrameSize& size, int row, int column, TraceBatch& batch) {
   const double left = column - size.overscan;
   const double top = row - size.overscan;
@@ -108,7 +108,8 @@ void lay_under(Rgba& over, const Rgba& under) {
   for (std::size_t c = 0; c < 4; ++c) over[c] += clear * under[c];
 }
 
-/// Sorts by falling distance at ray `i`, equal distances left as they are. There are few surfaces: insertion sort.
+/// Sorts by falling distance at ray `i`, equal distances left as they are. There are few surfaces: insertion
+/// sort.
 void sort_by_depth(const TraceBatch& batch, std::size_t i, std::vector<std::size_t>& order) {
   const auto farther = [&](std::size_t a, std::size_t b) {
     return batch.surfaces[a].distance[i] > batch.surfaces[b].distance[i];
@@ -130,8 +131,8 @@ Rgba see(const TraceBatch& batch, std::size_t i, const std::vector<SurfaceLook>&
   return colour;
 }
 
-/// The mean of the rays of the batch's pixel number `pixel`. `order` holds the surfaces, farthest first where a ray meets
-/// two at the same distance.
+/// The mean of the rays of the batch's pixel number `pixel`. `order` holds the surfaces, farthest first where
+/// a ray meets two at the same distance.
 Rgba average(const TraceBatch& batch, int pixel, const std::vector<SurfaceLook>& looks,
              const std::vector<std::size_t>& order) {
   Rgba sum{0, 0, 0, 0};
@@ -153,7 +154,8 @@ Rgba average(const TraceBatch& batch, int pixel, const std::vector<SurfaceLook>&
 
 Composite composite(const Tracer& tracer, const Scene& scene, const std::vector<SurfaceLook>& looks) {
   const FrameSize size(tracer.camera());
-  Picture picture{size.width, size.height, -size.overscan, -size.overscan, scene.camera.width, scene.camera.height, {}};
+  Picture picture{size.width,          size.height, -size.overscan, -size.overscan, scene.camera.width,
+                  scene.camera.height, {}};
   picture.pixels.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
   HitCounter counter(tracer);
   const std::vector<std::size_t> order = order_at_infinity(scene);
@@ -168,7 +170,8 @@ Composite composite(const Tracer& tracer, const Scene& scene, const std::vector<
 
 std::vector<std::int64_t> count_hits(const Tracer& tracer) {
   HitCounter counter(tracer);
-  trace_pixels(tracer, [&](int row, int, int pixels, const TraceBatch& batch) { counter.add(row, pixels, batch); });
+  trace_pixels(tracer,
+               [&](int row, int, int pixels, const TraceBatch& batch) { counter.add(row, pixels, batch); });
   return counter.totals();
 }
 

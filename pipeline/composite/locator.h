@@ -2,8 +2,9 @@
 //
 // The locator: a picture of where the lenses are, seen by the shot's camera as if no light were bent.
 //
-// The layers stand where they are; every lens in front of the camera is drawn as a translucent coloured ball of one size
-// in space, so that farther ones look smaller. The balls are markers: they are in no map and no simulation.
+// The layers stand where they are; every lens in front of the camera is drawn as a translucent coloured ball
+// of one size in space, so that farther ones look smaller. The balls are markers: they are in no map and no
+// simulation.
 
 #pragma once
 
@@ -14,7 +15,7 @@
 namespace lensplane {
 
 struct LocatorView {
-  Scene scene;                      // without lenses, the markers behind the layers in the list of surfaces
+  Scene scene;                     // without lenses, the markers behind the layers in the list of surfaces
   std::vector<SurfaceLook> looks;  // for all of its surfaces
 };
 

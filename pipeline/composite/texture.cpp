@@ -54,8 +54,10 @@ Rgba Texture::texel(int column, int row) const {
   const int width = picture_.display_width;
   const int height = picture_.display_height;
   switch (wrap_) {
-    case Wrap::Black: return {0, 0, 0, 0};
-    case Wrap::Clamp: break;
+    case Wrap::Black:
+      return {0, 0, 0, 0};
+    case Wrap::Clamp:
+      break;
     case Wrap::Mirror:
       x = mirrored(column, width) - picture_.x;
       y = mirrored(row, height) - picture_.y;

@@ -2,7 +2,8 @@
 //
 // Looking pictures up by (s, t): the one place where a plate or a texture is filtered.
 //
-// (s, t) cover the picture's display window, origin at the bottom left. Lookups are bilinear between pixel centres.
+// (s, t) cover the picture's display window, origin at the bottom left. Lookups are bilinear between pixel
+// centres.
 
 #pragma once
 

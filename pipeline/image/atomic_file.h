@@ -9,8 +9,9 @@
 
 namespace lensplane {
 
-/// Writes `bytes` to a temporary name beside `path`, makes sure that they are on the disk, and renames. Folders that
-/// are missing are made. Throws Failure (BadOutput) that names `path`, leaving whatever stood there before.
+/// Writes `bytes` to a temporary name beside `path`, makes sure that they are on the disk, and renames.
+/// Folders that are missing are made. Throws Failure (BadOutput) that names `path`, leaving whatever stood
+/// there before.
 void write_atomically(const std::filesystem::path& path, std::span<const char> bytes);
 
 }  // namespace lensplane

@@ -47,16 +47,26 @@ class MemoryStream : public Imf::OStream {
 
 Imf::Compression imf_compression(ExrCompression compression) {
   switch (compression) {
-    case ExrCompression::None: return Imf::NO_COMPRESSION;
-    case ExrCompression::Rle: return Imf::RLE_COMPRESSION;
-    case ExrCompression::Zips: return Imf::ZIPS_COMPRESSION;
-    case ExrCompression::Zip: return Imf::ZIP_COMPRESSION;
-    case ExrCompression::Piz: return Imf::PIZ_COMPRESSION;
-    case ExrCompression::Pxr24: return Imf::PXR24_COMPRESSION;
-    case ExrCompression::B44: return Imf::B44_COMPRESSION;
-    case ExrCompression::B44a: return Imf::B44A_COMPRESSION;
-    case ExrCompression::Dwaa: return Imf::DWAA_COMPRESSION;
-    case ExrCompression::Dwab: return Imf::DWAB_COMPRESSION;
+    case ExrCompression::None:
+      return Imf::NO_COMPRESSION;
+    case ExrCompression::Rle:
+      return Imf::RLE_COMPRESSION;
+    case ExrCompression::Zips:
+      return Imf::ZIPS_COMPRESSION;
+    case ExrCompression::Zip:
+      return Imf::ZIP_COMPRESSION;
+    case ExrCompression::Piz:
+      return Imf::PIZ_COMPRESSION;
+    case ExrCompression::Pxr24:
+      return Imf::PXR24_COMPRESSION;
+    case ExrCompression::B44:
+      return Imf::B44_COMPRESSION;
+    case ExrCompression::B44a:
+      return Imf::B44A_COMPRESSION;
+    case ExrCompression::Dwaa:
+      return Imf::DWAA_COMPRESSION;
+    case ExrCompression::Dwab:
+      return Imf::DWAB_COMPRESSION;
   }
   return Imf::ZIP_COMPRESSION;
 }
@@ -82,7 +92,8 @@ Imf::Chromaticities imf_chromaticities(const Chromaticities& c) {
 
 Imf::Header imf_header(const ExrWindow& window, const ExrFormat& format, const ExrHeader& header) {
   const Imath::Box2i display({0, 0}, {window.width - 1, window.height - 1});
-  const Imath::Box2i data(display.min - Imath::V2i(window.overscan), display.max + Imath::V2i(window.overscan));
+  const Imath::Box2i data(display.min - Imath::V2i(window.overscan),
+                          display.max + Imath::V2i(window.overscan));
   Imf::Header imf(display, data);
   imf.compression() = imf_compression(format.compression);
   const auto text = [&imf](const char* name, const std::string& value) {
@@ -99,7 +110,8 @@ Imf::Header imf_header(const ExrWindow& window, const ExrFormat& format, const E
   if (header.chromaticities) Imf::addChromaticities(imf, imf_chromaticities(*header.chromaticities));
   imf.insert("framesPerSecond", Imf::RationalAttribute(Imf::Rational(
                                     header.fps.numerator, static_cast<unsigned>(header.fps.denominator))));
-  imf.insert("worldToCamera", Imf::M44fAttribute(world_to_camera(header.camera_axes, header.camera_position)));
+  imf.insert("worldToCamera",
+             Imf::M44fAttribute(world_to_camera(header.camera_axes, header.camera_position)));
   return imf;
 }
 
@@ -112,31 +124,36 @@ std::vector<half> half_from_float(const ExrChannel& channel, std::size_t count) 
   return samples;
 }
 
-/// Where OpenEXR finds the samples of a channel: it addresses them by absolute coordinates of the data window.
+/// Where OpenEXR finds the samples of a channel: it addresses them by absolute coordinates of the data
+/// window.
 Imf::Slice slice_of(PixelType type, const void* samples, std::size_t sample_size, const ExrWindow& window) {
   const std::size_t row = sample_size * static_cast<std::size_t>(window.width + 2 * window.overscan);
-  const auto offset = static_cast<std::ptrdiff_t>(window.overscan) * static_cast<std::ptrdiff_t>(row + sample_size);
+  const auto offset =
+      static_cast<std::ptrdiff_t>(window.overscan) * static_cast<std::ptrdiff_t>(row + sample_size);
   char* base = const_cast<char*>(static_cast<const char*>(samples)) + offset;
   return {type == PixelType::Half ? Imf::HALF : Imf::FLOAT, base, sample_size, row};
 }
 
 }  // namespace
 
-std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window, const std::vector<ExrChannel>& channels,
-                      const ExrFormat& format, const ExrHeader& header) {
+std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window,
+                      const std::vector<ExrChannel>& channels, const ExrFormat& format,
+                      const ExrHeader& header) {
   Imf::Header imf = imf_header(window, format, header);
   Imf::FrameBuffer frame;
   std::map<std::string, std::vector<half>> halves;
   const int width = window.width + 2 * window.overscan;
   const int height = window.height + 2 * window.overscan;
   for (const ExrChannel& channel : channels) {
-    imf.channels().insert(channel.name, Imf::Channel(format.type == PixelType::Half ? Imf::HALF : Imf::FLOAT));
+    imf.channels().insert(channel.name,
+                          Imf::Channel(format.type == PixelType::Half ? Imf::HALF : Imf::FLOAT));
     if (format.type == PixelType::Half) {
       auto& samples = halves[channel.name];
       samples = half_from_float(channel, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
       frame.insert(channel.name, slice_of(format.type, samples.data(), sizeof(half), window));
     } else {
-      frame.insert(channel.name, slice_of(format.type, channel.samples, channel.stride * sizeof(float), window));
+      frame.insert(channel.name,
+                   slice_of(format.type, channel.samples, channel.stride * sizeof(float), window));
     }
   }
   MemoryStream stream;
@@ -151,7 +168,8 @@ std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window
   return stream.bytes().size();
 }
 
-std::optional<std::string> read_exr_attribute(const std::filesystem::path& path, const std::string& name) try {
+std::optional<std::string> read_exr_attribute(const std::filesystem::path& path,
+                                              const std::string& name) try {
   if (!std::filesystem::exists(path)) return std::nullopt;
   Imf::InputFile file(path.c_str());
   const auto* attribute = file.header().findTypedAttribute<Imf::StringAttribute>("lensplane:" + name);

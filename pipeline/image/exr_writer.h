@@ -37,9 +37,9 @@ struct ExrHeader {
   std::string colour_interop;  // colorInteropID: "lin_ap1_scene", "data"; empty when the space has none
   std::optional<Chromaticities> chromaticities;
   Rational fps;
-  Basis camera_axes;           // world from camera
-  Vec3 camera_position{0};     // metres
-  std::string amplification;   // "earth 4.46": A of each sphere layer; empty when there is none
+  Basis camera_axes;          // world from camera
+  Vec3 camera_position{0};    // metres
+  std::string amplification;  // "earth 4.46": A of each sphere layer; empty when there is none
 };
 
 /// One channel, row by row from the top.
@@ -49,7 +49,8 @@ struct ExrChannel {
   std::size_t stride = 1;  // floats from one sample to the next
 };
 
-/// A display window of `width` x `height` at the origin, and a data window larger by `overscan` on every side.
+/// A display window of `width` x `height` at the origin, and a data window larger by `overscan` on every
+/// side.
 struct ExrWindow {
   int width;
   int height;
@@ -61,13 +62,14 @@ struct ExrFormat {
   ExrCompression compression = ExrCompression::Zip;
 };
 
-/// Writes a single-part file, whole or not at all. Half samples are clamped to the largest half. Returns its size in
-/// bytes. Throws Failure (BadOutput).
-std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window, const std::vector<ExrChannel>& channels,
-                      const ExrFormat& format, const ExrHeader& header);
+/// Writes a single-part file, whole or not at all. Half samples are clamped to the largest half. Returns its
+/// size in bytes. Throws Failure (BadOutput).
+std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window,
+                      const std::vector<ExrChannel>& channels, const ExrFormat& format,
+                      const ExrHeader& header);
 
-/// Reads back the attribute `lensplane:NAME` of a file that is whole, nothing when there is no such file, no such
-/// attribute, or the file breaks off.
+/// Reads back the attribute `lensplane:NAME` of a file that is whole, nothing when there is no such file, no
+/// such attribute, or the file breaks off.
 std::optional<std::string> read_exr_attribute(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace lensplane

@@ -2,8 +2,8 @@
 //
 // What is thrown when the outside world is not as it has to be: one exception type, caught in main.
 //
-// A Failure's text is the one line that the user reads: what, where, and what to do. Bugs are assertions instead, and
-// numerical outcomes (a captured ray, say) are values.
+// A Failure's text is the one line that the user reads: what, where, and what to do. Bugs are assertions
+// instead, and numerical outcomes (a captured ray, say) are values.
 
 #pragma once
 

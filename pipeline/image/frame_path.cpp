@@ -27,7 +27,8 @@ std::optional<Placeholder> find_placeholder(const std::string& pattern) {
   std::smatch match;
   if (!std::regex_search(pattern, match, percent)) return std::nullopt;
   const int padding = match[1].matched ? std::stoi(match[1].str()) : 1;
-  return Placeholder{static_cast<std::size_t>(match.position()), static_cast<std::size_t>(match.length()), padding};
+  return Placeholder{static_cast<std::size_t>(match.position()), static_cast<std::size_t>(match.length()),
+                     padding};
 }
 
 }  // namespace

@@ -32,10 +32,14 @@ SampleType nearest_type(OIIO::TypeDesc format) {
 
 OIIO::TypeDesc oiio_type(SampleType type) {
   switch (type) {
-    case SampleType::UInt8: return OIIO::TypeDesc::UINT8;
-    case SampleType::UInt16: return OIIO::TypeDesc::UINT16;
-    case SampleType::Half: return OIIO::TypeDesc::HALF;
-    case SampleType::Float: break;
+    case SampleType::UInt8:
+      return OIIO::TypeDesc::UINT8;
+    case SampleType::UInt16:
+      return OIIO::TypeDesc::UINT16;
+    case SampleType::Half:
+      return OIIO::TypeDesc::HALF;
+    case SampleType::Float:
+      break;
   }
   return OIIO::TypeDesc::FLOAT;
 }
@@ -51,7 +55,8 @@ std::array<int, 3> colour_channels(const OIIO::ImageSpec& spec) {
 
 /// Channels as the file has them to RGBA; `Sample` is as large as a sample, `opaque` is full alpha.
 template <class Sample>
-void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, Sample opaque, EncodedImage& image) {
+void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, Sample opaque,
+          EncodedImage& image) {
   const auto colours = colour_channels(spec);
   const auto channels = static_cast<std::size_t>(spec.nchannels);
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
@@ -66,10 +71,14 @@ void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, Sampl
 
 void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, EncodedImage& image) {
   switch (image.type) {
-    case SampleType::UInt8: return pack<std::uint8_t>(spec, file, 0xff, image);
-    case SampleType::UInt16: return pack<std::uint16_t>(spec, file, 0xffff, image);
-    case SampleType::Half: return pack<std::uint16_t>(spec, file, kHalfOne, image);
-    case SampleType::Float: return pack<std::uint32_t>(spec, file, std::bit_cast<std::uint32_t>(1.0F), image);
+    case SampleType::UInt8:
+      return pack<std::uint8_t>(spec, file, 0xff, image);
+    case SampleType::UInt16:
+      return pack<std::uint16_t>(spec, file, 0xffff, image);
+    case SampleType::Half:
+      return pack<std::uint16_t>(spec, file, kHalfOne, image);
+    case SampleType::Float:
+      return pack<std::uint32_t>(spec, file, std::bit_cast<std::uint32_t>(1.0F), image);
   }
 }
 
@@ -81,7 +90,8 @@ EncodedImage read_image(const std::filesystem::path& path) {
     throw Failure(ExitCode::BadInput, fmt::format("{}: no such image", path.string()));
   }
   OIIO::ImageSpec as_stored;
-  as_stored["oiio:UnassociatedAlpha"] = 1;  // else 8-bit colours would be premultiplied before they are linear
+  as_stored["oiio:UnassociatedAlpha"] =
+      1;  // else 8-bit colours would be premultiplied before they are linear
   const auto input = OIIO::ImageInput::open(path.string(), &as_stored);
   if (!input) refuse(path, OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
@@ -95,8 +105,10 @@ EncodedImage read_image(const std::filesystem::path& path) {
                      .has_alpha = spec.alpha_channel >= 0,
                      .premultiplied = spec.get_int_attribute("oiio:UnassociatedAlpha") == 0,
                      .samples = {}};
-  std::vector<std::byte> file(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels) * size_of(image.type));
-  if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(image.type), file.data())) refuse(path, input->geterror());
+  std::vector<std::byte> file(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels) *
+                              size_of(image.type));
+  if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(image.type), file.data()))
+    refuse(path, input->geterror());
   pack(spec, file, image);
   return image;
 }

@@ -17,8 +17,8 @@ constexpr std::size_t size_of(SampleType type) {
   return type == SampleType::UInt8 ? 1 : type == SampleType::Float ? 4 : 2;
 }
 
-/// RGBA samples row by row from the top, in the file's own type and encoding. Grey files have R = G = B, files without
-/// alpha have it at full. The data window lies in the display window as Picture says.
+/// RGBA samples row by row from the top, in the file's own type and encoding. Grey files have R = G = B,
+/// files without alpha have it at full. The data window lies in the display window as Picture says.
 struct EncodedImage {
   int width = 0;
   int height = 0;
@@ -32,8 +32,8 @@ struct EncodedImage {
   std::vector<std::byte> samples;
 };
 
-/// Reads the first part of an image. EXR and whatever else OpenImageIO reads. Throws Failure (BadInput) with the path
-/// and the reason.
+/// Reads the first part of an image. EXR and whatever else OpenImageIO reads. Throws Failure (BadInput) with
+/// the path and the reason.
 EncodedImage read_image(const std::filesystem::path& path);
 
 }  // namespace lensplane

@@ -27,7 +27,8 @@ struct Picture {
   std::vector<Rgba> pixels;
 
   const Rgba& at(int column, int row) const {
-    return pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
+    return pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(column)];
   }
   Rgba& at(int column, int row) { return const_cast<Rgba&>(std::as_const(*this).at(column, row)); }
 };

@@ -5,13 +5,29 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <array>
+#include <fstream>
+
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/failure.h"
 #include "pipeline/image/version.h"
 
 namespace lensplane {
+namespace {
 
-std::size_t write_png(const std::filesystem::path& path, const Picture& picture, const std::string& parameters) {
+/// Whether the file ends with PNG's last chunk, IEND: nothing was cut off.
+bool ends_as_png(const std::filesystem::path& path) {
+  constexpr std::array<char, 8> kEnd = {'I', 'E', 'N', 'D', '\xae', '\x42', '\x60', '\x82'};
+  std::array<char, kEnd.size()> end{};
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  return file.read(end.data(), end.size()) && end == kEnd;
+}
+
+}  // namespace
+
+std::size_t write_png(const std::filesystem::path& path, const Picture& picture,
+                      const std::string& parameters) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
@@ -30,15 +46,10 @@ std::size_t write_png(const std::filesystem::path& path, const Picture& picture,
 }
 
 std::optional<std::string> read_png_parameters(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  if (!ends_as_png(path)) return std::nullopt;
   const auto input = OIIO::ImageInput::open(path.string());
   if (!input) {
     OIIO::geterror();  // an unread error would be printed later
-    return std::nullopt;
-  }
-  std::vector<unsigned char> pixels(input->spec().image_bytes());
-  if (!input->read_image(0, 0, 0, input->spec().nchannels, OIIO::TypeDesc::UINT8, pixels.data())) {
-    input->geterror();
     return std::nullopt;
   }
   const std::string parameters(input->spec().get_string_attribute("ImageDescription"));

@@ -12,8 +12,8 @@ namespace lensplane {
 
 inline constexpr std::string_view kShippedPrefix = "lensplane:";
 
-/// The path of a file: as it stands, or in the folder share/lensplane beside the program's own when it starts with
-/// kShippedPrefix.
+/// The path of a file: as it stands, or in the folder share/lensplane beside the program's own when it starts
+/// with kShippedPrefix.
 std::filesystem::path resolve_shipped(const std::string& path);
 
 }  // namespace lensplane

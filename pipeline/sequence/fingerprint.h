@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fingerprints: a hash of everything that determines the pixels of an output, so that a second run can tell what is done
-// and right from what has to be made again. Independent of the machine, of paths and of dates.
+// Fingerprints: a hash of everything that determines the pixels of an output, so that a second run can tell
+// what is done and right from what has to be made again. Independent of the machine, of paths and of dates.
 
 #pragma once
 

@@ -15,7 +15,8 @@
 namespace lensplane {
 
 enum class Phase { Load, Trace, Composite, View, Write };
-inline constexpr std::array<std::string_view, 5> kPhaseNames = {"load", "trace", "composite", "view", "write"};
+inline constexpr std::array<std::string_view, 5> kPhaseNames = {"load", "trace", "composite", "view",
+                                                                "write"};
 
 struct PhaseCost {
   double seconds = 0;
@@ -46,7 +47,9 @@ auto timed(double& seconds, Work work) {
   struct Stopwatch {
     double& seconds;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-    ~Stopwatch() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+    ~Stopwatch() {
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
   } stopwatch{seconds};
   return work();
 }

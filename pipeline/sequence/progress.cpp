@@ -46,7 +46,8 @@ void Progress::show_status() const {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   std::string status = fmt::format("{} of {} frames done", frames_done_, frames_);
   if (frames_made_ > 0) {
-    const double left = elapsed / static_cast<double>(frames_made_) * static_cast<double>(frames_ - frames_done_);
+    const double left =
+        elapsed / static_cast<double>(frames_made_) * static_cast<double>(frames_ - frames_done_);
     status += fmt::format(", {:.1f} million rays/s, {} left", static_cast<double>(rays_) / elapsed / 1e6,
                           minutes_and_seconds(left));
   }

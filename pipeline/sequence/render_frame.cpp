@@ -32,11 +32,12 @@ ExrWindow window_of(const Camera& camera) {
   return {camera.width, camera.height, camera.overscan};
 }
 
-std::string fingerprint_of_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
-                                   const FrameSetup& setup) {
+std::string fingerprint_of_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures,
+                                   int frame, const FrameSetup& setup) {
   Fingerprint print = fingerprint_of_trace(setup.scene, setup.plan);
   print.add(colours.cache_id()).add(shot.colour.working.text);
-  print.add(static_cast<double>(shot.output.image.type)).add(static_cast<double>(shot.output.image.compression));
+  print.add(static_cast<double>(shot.output.image.type))
+      .add(static_cast<double>(shot.output.image.compression));
   for (std::size_t k = 0; k < shot.layers.size(); ++k) {
     print.add(textures.digest(k, frame));
     if (const auto light = light_at(shot.layers[k], frame)) print.add("light").add(*light);
@@ -84,7 +85,8 @@ bool is_done(const Shot& shot, int frame, const FrameSetup& setup) {
     return read_exr_attribute(path, "parameters") == header.parameters;
   };
   for (std::size_t k = 0; setup.maps_wanted && k < shot.layers.size(); ++k) {
-    if (shot.output.maps[k] && !exr_done(map_path(shot, shot.layers[k].name, frame), setup.map_header)) return false;
+    if (shot.output.maps[k] && !exr_done(map_path(shot, shot.layers[k].name, frame), setup.map_header))
+      return false;
   }
   if (setup.picture_wanted && !exr_done(picture_path(shot, frame), setup.picture_header)) return false;
   return !setup.review_wanted || read_png_parameters(review_path(shot, frame)) == setup.review_parameters;
@@ -94,7 +96,8 @@ bool is_done(const Shot& shot, int frame, const FrameSetup& setup) {
 std::string text_from_amplifications(const std::vector<Amplification>& amplifications) {
   std::string text;
   for (const Amplification& a : amplifications) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : " ", a.layer, a.factor ? fmt::format("{}", *a.factor) : "-");
+    text += fmt::format("{}{} {}", text.empty() ? "" : " ", a.layer,
+                        a.factor ? fmt::format("{}", *a.factor) : "-");
   }
   return text;
 }
@@ -120,12 +123,14 @@ void make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport
     wanted.surfaces.push_back(setup.scene.surfaces[k]);
     names.push_back(shot.layers[k].name);
   }
-  const auto maps = timed(report[Phase::Trace].seconds, [&] { return trace_maps(Tracer(wanted, setup.plan)); });
+  const auto maps =
+      timed(report[Phase::Trace].seconds, [&] { return trace_maps(Tracer(wanted, setup.plan)); });
   report.rays += static_cast<std::int64_t>(maps.front().width) * maps.front().height;
   for (std::size_t k = 0; k < maps.size(); ++k) {
     const LensMap& map = maps[k];
     report[Phase::Trace].bytes += 3 * sizeof(float) * map.s.size();
-    const std::vector<ExrChannel> channels = {{"R", map.s.data()}, {"G", map.t.data()}, {"B", map.valid.data()}};
+    const std::vector<ExrChannel> channels = {
+        {"R", map.s.data()}, {"G", map.t.data()}, {"B", map.valid.data()}};
     report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
       return write_exr(map_path(shot, names[k], frame), window_of(setup.scene.camera), channels,
                        {PixelType::Float, ExrCompression::Zip}, setup.map_header);
@@ -168,7 +173,8 @@ std::vector<Amplification> amplifications_of(const Shot& shot, const Scene& scen
   return amplifications;
 }
 
-void write_picture(const Shot& shot, int frame, const FrameSetup& setup, const Picture& picture, FrameReport& report) {
+void write_picture(const Shot& shot, int frame, const FrameSetup& setup, const Picture& picture,
+                   FrameReport& report) {
   ExrHeader header = setup.picture_header;
   header.amplification = text_from_amplifications(report.amplifications);
   std::vector<ExrChannel> channels;
@@ -176,13 +182,15 @@ void write_picture(const Shot& shot, int frame, const FrameSetup& setup, const P
     channels.push_back({name, picture.pixels.front().data() + channels.size(), 4});
   }
   report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
-    return write_exr(picture_path(shot, frame), window_of(setup.scene.camera), channels, shot.output.image, header);
+    return write_exr(picture_path(shot, frame), window_of(setup.scene.camera), channels, shot.output.image,
+                     header);
   });
 }
 
 /// The display window of a picture, without its overscan.
 Picture display_window(const Picture& picture) {
-  Picture window{picture.display_width, picture.display_height, 0, 0, picture.display_width, picture.display_height, {}};
+  Picture window{picture.display_width, picture.display_height, 0, 0,
+                 picture.display_width, picture.display_height, {}};
   for (int row = 0; row < window.height; ++row) {
     const Rgba* first = &picture.at(-picture.x, row - picture.y);
     window.pixels.insert(window.pixels.end(), first, first + window.width);
@@ -211,7 +219,8 @@ void make_review(const Shot& shot, const ColourConfig& colours, int frame, const
     shown = beside(shown, display_window(view.picture));
   }
   const Picture display = timed(report[Phase::View].seconds, [&] {
-    return colours.to_display(shown, shot.colour.working.text, shot.colour.display.text, shot.colour.view.text);
+    return colours.to_display(shown, shot.colour.working.text, shot.colour.display.text,
+                              shot.colour.view.text);
   });
   report[Phase::View].bytes += display.pixels.size() * sizeof(Rgba);
   report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {

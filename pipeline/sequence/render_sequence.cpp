@@ -7,8 +7,9 @@
 
 namespace lensplane {
 
-std::vector<FrameReport> render_sequence(const Shot& shot, const ColourConfig& colours, const std::vector<int>& frames,
-                                         const FrameTasks& tasks, const SequenceHooks& hooks) {
+std::vector<FrameReport> render_sequence(const Shot& shot, const ColourConfig& colours,
+                                         const std::vector<int>& frames, const FrameTasks& tasks,
+                                         const SequenceHooks& hooks) {
   TextureStore textures(shot, colours);
   std::vector<FrameReport> reports;
   std::size_t next = 0;
@@ -28,9 +29,10 @@ std::vector<FrameReport> render_sequence(const Shot& shot, const ColourConfig& c
     hooks.frame_done(report);
   };
   tbb::parallel_pipeline(
-      kFramesAtOnce, tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, take_frame) &
-                         tbb::make_filter<int, FrameReport>(tbb::filter_mode::parallel, make_frame) &
-                         tbb::make_filter<FrameReport, void>(tbb::filter_mode::serial_in_order, report_frame));
+      kFramesAtOnce,
+      tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, take_frame) &
+          tbb::make_filter<int, FrameReport>(tbb::filter_mode::parallel, make_frame) &
+          tbb::make_filter<FrameReport, void>(tbb::filter_mode::serial_in_order, report_frame));
   return reports;
 }
 

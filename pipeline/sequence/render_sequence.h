@@ -19,9 +19,10 @@ struct SequenceHooks {
   std::function<bool()> stop;                          // true: begin no further frame
 };
 
-/// Makes `frames`, of which none is begun after hooks.stop() holds or one has failed; those begun are finished. Returns
-/// the reports of all that were. Throws Failure.
-std::vector<FrameReport> render_sequence(const Shot& shot, const ColourConfig& colours, const std::vector<int>& frames,
-                                         const FrameTasks& tasks, const SequenceHooks& hooks);
+/// Makes `frames`, of which none is begun after hooks.stop() holds or one has failed; those begun are
+/// finished. Returns the reports of all that were. Throws Failure.
+std::vector<FrameReport> render_sequence(const Shot& shot, const ColourConfig& colours,
+                                         const std::vector<int>& frames, const FrameTasks& tasks,
+                                         const SequenceHooks& hooks);
 
 }  // namespace lensplane

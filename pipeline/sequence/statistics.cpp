@@ -14,7 +14,8 @@ using Json = nlohmann::ordered_json;
 Json json_from_phases(const FrameReport& report) {
   Json phases;
   for (std::size_t i = 0; i < kPhaseNames.size(); ++i) {
-    phases[std::string(kPhaseNames[i])] = {{"seconds", report.phases[i].seconds}, {"bytes", report.phases[i].bytes}};
+    phases[std::string(kPhaseNames[i])] = {{"seconds", report.phases[i].seconds},
+                                           {"bytes", report.phases[i].bytes}};
   }
   return phases;
 }
@@ -24,12 +25,8 @@ Json json_from_report(const FrameReport& report) {
   for (const Amplification& a : report.amplifications) {
     amplification[a.layer] = a.factor ? Json(*a.factor) : Json(nullptr);
   }
-  return {{"frame", report.frame},
-          {"already_done", report.already_done},
-          {"seconds", report.seconds},
-          {"rays", report.rays},
-          {"phases", json_from_phases(report)},
-          {"amplification", amplification}};
+  return {{"frame", report.frame}, {"already_done", report.already_done}, {"seconds", report.seconds},
+          {"rays", report.rays},   {"phases", json_from_phases(report)},  {"amplification", amplification}};
 }
 
 FrameReport sum_of(const std::vector<FrameReport>& reports) {
@@ -49,8 +46,8 @@ FrameReport sum_of(const std::vector<FrameReport>& reports) {
 std::string json_from_reports(const std::string& shot, int threads, double seconds,
                               const std::vector<FrameReport>& reports) {
   const FrameReport sum = sum_of(reports);
-  Json json = {{"lensplane", kVersion}, {"shot", shot},      {"threads", threads},
-               {"seconds", seconds},    {"rays", sum.rays},  {"phases", json_from_phases(sum)},
+  Json json = {{"lensplane", kVersion},  {"shot", shot},     {"threads", threads},
+               {"seconds", seconds},     {"rays", sum.rays}, {"phases", json_from_phases(sum)},
                {"frames", Json::array()}};
   for (const FrameReport& report : reports) json["frames"].push_back(json_from_report(report));
   return json.dump(2) + "\n";

@@ -22,10 +22,14 @@ Wrap wrap_of(const Layer& layer) {
   const auto* plate = std::get_if<PlateLayer>(&layer.kind);
   if (!plate) return Wrap::Globe;
   switch (plate->edge) {
-    case Edge::Black: return Wrap::Black;
-    case Edge::Clamp: return Wrap::Clamp;
-    case Edge::Mirror: return Wrap::Mirror;
-    case Edge::Repeat: return Wrap::Repeat;
+    case Edge::Black:
+      return Wrap::Black;
+    case Edge::Clamp:
+      return Wrap::Clamp;
+    case Edge::Mirror:
+      return Wrap::Mirror;
+    case Edge::Repeat:
+      return Wrap::Repeat;
   }
   return Wrap::Black;
 }
@@ -91,7 +95,8 @@ ImageEncoding TextureStore::encoding_of(const Layer& layer, const std::string& p
 }
 
 std::shared_ptr<const Texture> TextureStore::load(const Layer& layer, const std::string& path) const {
-  Picture picture = colours_.to_working(read_image(path), encoding_of(layer, path), shot_.colour.working.text);
+  Picture picture =
+      colours_.to_working(read_image(path), encoding_of(layer, path), shot_.colour.working.text);
   return std::make_shared<const Texture>(std::move(picture), wrap_of(layer));
 }
 

@@ -15,7 +15,8 @@
 
 namespace lensplane {
 
-/// Throws Failure (BadShot) when the shot names a colour space, display or view that the config does not have.
+/// Throws Failure (BadShot) when the shot names a colour space, display or view that the config does not
+/// have.
 void check_colours(const Shot& shot, const ColourConfig& colours);
 
 /// Safe to use from many threads. Still images are kept; those of sequences are read for their frame.

@@ -29,7 +29,8 @@ ProjectionKind read_projection(const Value& camera, NotYet& not_yet) {
 double read_fov(const Value& fov, ProjectionKind kind) {
   const double angle = fov.positive(Dimension::Angle);
   if (kind == ProjectionKind::Perspective && !(angle < kPi)) {
-    fov.refuse(in_quotes(fov.text()) + "; allowed for a perspective camera: more than 0 deg and less than 180 deg");
+    fov.refuse(in_quotes(fov.text()) +
+               "; allowed for a perspective camera: more than 0 deg and less than 180 deg");
   }
   if (angle > 2.0 * kPi * (1.0 + 1e-12)) fov.refuse(in_quotes(fov.text()) + "; allowed: up to 360 deg");
   return angle;
@@ -47,7 +48,8 @@ std::variant<Keyed<double>, FocalLength> read_field_of_view(const Value& camera,
                        read_keyed_positive(width, Dimension::Length)};
   }
   if (!fov && kind == ProjectionKind::LatLong) return Keyed<double>::constant(2.0 * kPi);
-  const Value needed = camera.require("fov", "the full horizontal angle, like 3 deg (or focal_length and film_width)");
+  const Value needed =
+      camera.require("fov", "the full horizontal angle, like 3 deg (or focal_length and film_width)");
   return read_keyed(needed, [kind](const Value& v) { return read_fov(v, kind); });
 }
 
@@ -71,7 +73,8 @@ LookAt read_look_at(const Value& value, const Value& camera, const ShotNames& na
   if (lens) look_at.target = *lens;
   if (layer) look_at.target = *layer;
   if (!lens && !layer) {
-    value.refuse(in_quotes(name) + " is no lens or layer of this shot; allowed: one of their names, or [x, y, z]");
+    value.refuse(in_quotes(name) +
+                 " is no lens or layer of this shot; allowed: one of their names, or [x, y, z]");
   }
   return look_at;
 }
@@ -92,7 +95,8 @@ int read_overscan(const Value& overscan, NotYet& not_yet) {
     return 0;
   }
   const int pixels = overscan.integer(0, kMaxOverscan);
-  if (pixels % 2 != 0) overscan.refuse(fmt::format("{} is odd; allowed: an even number of pixels, or auto", pixels));
+  if (pixels % 2 != 0)
+    overscan.refuse(fmt::format("{} is odd; allowed: an even number of pixels, or auto", pixels));
   return pixels;
 }
 
@@ -100,7 +104,8 @@ void read_shutter(const Value& shutter, CameraTrack& track, NotYet& not_yet) {
   shutter.only_keys({"open", "close", "samples"});
   if (const auto open = shutter.find("open")) track.shutter_open = open->quantity(Dimension::Number);
   if (const auto close = shutter.find("close")) track.shutter_close = close->quantity(Dimension::Number);
-  if (track.shutter_close < track.shutter_open) shutter.refuse("closes before it opens; allowed: open <= close");
+  if (track.shutter_close < track.shutter_open)
+    shutter.refuse("closes before it opens; allowed: open <= close");
   if (const auto samples = shutter.find("samples")) {
     if (samples->integer(1, 1024) > 1) not_yet.add(*samples, "motion blur; write 1");
   }
@@ -109,8 +114,8 @@ void read_shutter(const Value& shutter, CameraTrack& track, NotYet& not_yet) {
 }  // namespace
 
 CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not_yet) {
-  camera.only_keys({"projection", "resolution", "fov", "focal_length", "film_width", "position", "look_at", "rotation",
-                    "up", "overscan", "shutter", "from"});
+  camera.only_keys({"projection", "resolution", "fov", "focal_length", "film_width", "position", "look_at",
+                    "rotation", "up", "overscan", "shutter", "from"});
   CameraTrack track;
   const ProjectionKind kind = read_projection(camera, not_yet);
   const auto size = camera.require("resolution", "[width, height] in pixels")
@@ -123,7 +128,8 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not
   } else {
     track.fov = read_field_of_view(camera, kind);
   }
-  if (const auto position = camera.find("position")) track.position = read_keyed_vector(*position, Dimension::Length);
+  if (const auto position = camera.find("position"))
+    track.position = read_keyed_vector(*position, Dimension::Length);
   track.orientation = read_orientation(camera, names);
   if (const auto overscan = camera.find("overscan")) track.overscan = read_overscan(*overscan, not_yet);
   if (const auto shutter = camera.find("shutter")) read_shutter(*shutter, track, not_yet);

@@ -9,8 +9,8 @@
 
 namespace lensplane {
 
-/// Reads `camera`; `names` are what it may look at. A layer that it looks at has to have a centre, which is for the
-/// caller to see to.
+/// Reads `camera`; `names` are what it may look at. A layer that it looks at has to have a centre, which is
+/// for the caller to see to.
 CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not_yet);
 
 }  // namespace lensplane

@@ -32,7 +32,8 @@ bool take(std::string_view& text, char wanted) {
 /// Appends the frames of one part, "1001", "1001-1010" or "1001-1010x2"; returns what is wrong.
 std::string append_part(std::string_view part, std::vector<int>& frames) {
   const std::string malformed =
-      fmt::format("{} is not a range of frames; write 1001, 1001-1048, 1001-1100x2, or several with commas", in_quotes(part));
+      fmt::format("{} is not a range of frames; write 1001, 1001-1048, 1001-1100x2, or several with commas",
+                  in_quotes(part));
   std::string_view rest = part;
   const auto first = take_number(rest);
   if (!first) return malformed;
@@ -49,7 +50,8 @@ std::string append_part(std::string_view part, std::vector<int>& frames) {
     }
   }
   if (!rest.empty()) return malformed;
-  if (last < *first) return fmt::format("{} ends before it starts; write {}-{}", in_quotes(part), last, *first);
+  if (last < *first)
+    return fmt::format("{} ends before it starts; write {}-{}", in_quotes(part), last, *first);
   if (step == 0) return fmt::format("{} steps by 0; the step has to be 1 or more", in_quotes(part));
   if (static_cast<std::size_t>((last - *first) / step) + frames.size() >= kMaxFrames) {
     return fmt::format("{} makes more than {} frames", in_quotes(part), kMaxFrames);

@@ -8,7 +8,8 @@
 namespace lensplane {
 namespace {
 
-/// Slope at an inner key from the secants on both sides: their weighted harmonic mean, or flat at an extremum.
+/// Slope at an inner key from the secants on both sides: their weighted harmonic mean, or flat at an
+/// extremum.
 double inner_slope(double width_before, double secant_before, double width_after, double secant_after) {
   if (secant_before * secant_after <= 0.0) return 0.0;
   const double weight_before = 2.0 * width_after + width_before;

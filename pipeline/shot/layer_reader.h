@@ -9,8 +9,8 @@
 
 namespace lensplane {
 
-/// Reads one item of `layers`. Image paths stay as they are written. Nothing for a layer that is right but not available
-/// yet.
+/// Reads one item of `layers`. Image paths stay as they are written. Nothing for a layer that is right but
+/// not available yet.
 std::optional<Layer> read_layer(const Value& layer, const ShotNames& names, NotYet& not_yet);
 
 }  // namespace lensplane

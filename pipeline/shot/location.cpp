@@ -11,14 +11,15 @@
 namespace lensplane {
 
 void refuse(const Location& location, const std::string& key, const std::string& what) {
-  throw Failure(ExitCode::BadShot, fmt::format("{}:{}:{}: {}{}{}", *location.file, location.line, location.column, key,
-                                               key.empty() ? "" : ": ", what));
+  throw Failure(ExitCode::BadShot, fmt::format("{}:{}:{}: {}{}{}", *location.file, location.line,
+                                               location.column, key, key.empty() ? "" : ": ", what));
 }
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kShown = 60;
   std::string shown(text.substr(0, kShown));
-  std::replace_if(shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20; }, ' ');
   return "\"" + shown + (text.size() > kShown ? "...\"" : "\"");
 }
 

@@ -17,11 +17,12 @@ struct Location {
   int column = 0;
 };
 
-/// Throws Failure (BadShot) "FILE:LINE:COLUMN: KEY: WHAT" (without "KEY: " when it is empty). `what` says what is wrong
-/// and what is allowed.
+/// Throws Failure (BadShot) "FILE:LINE:COLUMN: KEY: WHAT" (without "KEY: " when it is empty). `what` says
+/// what is wrong and what is allowed.
 [[noreturn]] void refuse(const Location& location, const std::string& key, const std::string& what);
 
-/// `text` between quotes as an error message shows it: on one line, and not more of it than one cares to read.
+/// `text` between quotes as an error message shows it: on one line, and not more of it than one cares to
+/// read.
 std::string in_quotes(std::string_view text);
 
 /// The texts one after another, with commas between them.

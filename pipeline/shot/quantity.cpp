@@ -79,11 +79,16 @@ ParsedQuantity with_unit(double number, std::string_view text, std::string_view 
 
 std::string_view noun_of(Dimension dimension) {
   switch (dimension) {
-    case Dimension::Number: return "a number";
-    case Dimension::Length: return "a length";
-    case Dimension::Angle: return "an angle";
-    case Dimension::Mass: return "a mass";
-    case Dimension::Pixels: return "a number of pixels";
+    case Dimension::Number:
+      return "a number";
+    case Dimension::Length:
+      return "a length";
+    case Dimension::Angle:
+      return "an angle";
+    case Dimension::Mass:
+      return "a mass";
+    case Dimension::Pixels:
+      return "a number of pixels";
   }
   return {};
 }
@@ -99,7 +104,8 @@ std::string units_of(Dimension dimension) {
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   text = trimmed(text);
   std::string_view digits = text;
-  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);  // from_chars knows minus only
+  if (digits.starts_with('+') && !digits.starts_with("+-"))
+    digits.remove_prefix(1);  // from_chars knows minus only
   double number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (error == std::errc::invalid_argument) {
@@ -111,7 +117,8 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   const std::string_view rest = digits.substr(static_cast<std::size_t>(end - digits.data()));
   const ParsedQuantity result = with_unit(number, text, trimmed(rest), dimension);
   if (!result.error.empty()) return result;
-  if (!std::isfinite(result.value)) return wrong(fmt::format("{} is not finite; {}", in_quotes(text), needed(dimension)));
+  if (!std::isfinite(result.value))
+    return wrong(fmt::format("{} is not finite; {}", in_quotes(text), needed(dimension)));
   if (result.value != 0 ? !std::isnormal(result.value) : number != 0) {
     return wrong(fmt::format("{} is too small to be told from zero; {}", in_quotes(text), needed(dimension)));
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Quantities with units: "1.989e31 kg", "3 deg". Units end here; behind this border everything is in metres, radians
-// and geometric mass.
+// Quantities with units: "1.989e31 kg", "3 deg". Units end here; behind this border everything is in metres,
+// radians and geometric mass.
 
 #pragma once
 
@@ -30,8 +30,8 @@ struct ParsedQuantity {
   std::string error;  // empty when the value is good
 };
 
-/// Reads a finite number and, except for Dimension::Number, a unit. Infinities, NaN and numbers too small for a double's
-/// full precision are errors.
+/// Reads a finite number and, except for Dimension::Number, a unit. Infinities, NaN and numbers too small for
+/// a double's full precision are errors.
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension);
 
 }  // namespace lensplane

@@ -29,11 +29,13 @@ YamlNode* find_item(YamlNode& list, const std::string& part) {
 }
 
 /// The place one step below `node`.
-YamlNode& descend(YamlNode& node, const std::string& part, const Location& location, const std::string& setting) {
+YamlNode& descend(YamlNode& node, const std::string& part, const Location& location,
+                  const std::string& setting) {
   if (part.empty()) refuse(setting, "an empty key; write key.path=value, like camera.fov=2 deg");
   if (node.kind == YamlNode::Kind::Sequence) {
     YamlNode* item = find_item(node, part);
-    if (!item) refuse(setting, fmt::format("{} is neither a name in this list nor a number in it", in_quotes(part)));
+    if (!item)
+      refuse(setting, fmt::format("{} is neither a name in this list nor a number in it", in_quotes(part)));
     return *item;
   }
   if (node.kind != YamlNode::Kind::Map) {
@@ -43,7 +45,8 @@ YamlNode& descend(YamlNode& node, const std::string& part, const Location& locat
   }
   if (YamlNode* found = node.find(part)) return *found;
   node.keys.push_back({part, location});
-  node.items.push_back({.kind = YamlNode::Kind::Null, .location = location, .text = {}, .keys = {}, .items = {}});
+  node.items.push_back(
+      {.kind = YamlNode::Kind::Null, .location = location, .text = {}, .keys = {}, .items = {}});
   return node.items.back();
 }
 

@@ -10,9 +10,9 @@
 
 namespace lensplane {
 
-/// Puts the value of "key.path=value" (YAML) into the tree. Items of lists are addressed by their `name` or by their
-/// number from 0; keys of maps that are missing are made. Errors inside the value are located in "--set key.path".
-/// Throws Failure (BadShot).
+/// Puts the value of "key.path=value" (YAML) into the tree. Items of lists are addressed by their `name` or
+/// by their number from 0; keys of maps that are missing are made. Errors inside the value are located in
+/// "--set key.path". Throws Failure (BadShot).
 void apply_setting(const std::string& setting, YamlNode& root);
 
 }  // namespace lensplane

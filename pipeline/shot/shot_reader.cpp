@@ -22,7 +22,8 @@ namespace {
 
 void read_version(const Value& root) {
   const Value version = root.require("lensplane", "the version of the format: lensplane: 1");
-  if (version.text() != "1") version.refuse(in_quotes(version.text()) + " is a version this program does not read; allowed: 1");
+  if (version.text() != "1")
+    version.refuse(in_quotes(version.text()) + " is a version this program does not read; allowed: 1");
 }
 
 std::vector<int> read_frames(const Value& value) {
@@ -44,7 +45,8 @@ Rational rational_from_rate(double rate) {
 Rational read_fps(const Value& value) {
   const std::string text = value.text();
   const std::size_t slash = text.find('/');
-  constexpr const char* kAllowed = "allowed: frames per second, like 24, 23.976 or 24000/1001, from 1/1000 to 100000";
+  constexpr const char* kAllowed =
+      "allowed: frames per second, like 24, 23.976 or 24000/1001, from 1/1000 to 100000";
   if (slash == std::string::npos) {
     const double rate = value.positive(Dimension::Number);
     if (rate < 1e-3 || rate > 1e5) value.refuse(in_quotes(text) + "; " + kAllowed);
@@ -67,7 +69,8 @@ std::vector<std::string> read_names(const std::optional<Value>& list, std::set<s
     if (!item.is_map()) item.refuse("needed: a map with the key name and others");
     const Value name = item.require("name", "a name");
     names.push_back(name.name());
-    if (!seen.insert(names.back()).second) name.refuse(in_quotes(names.back()) + " is already the name of a lens or layer");
+    if (!seen.insert(names.back()).second)
+      name.refuse(in_quotes(names.back()) + " is already the name of a lens or layer");
   }
   return names;
 }
@@ -92,8 +95,9 @@ LensTrack read_lens(const Value& lens) {
       return schwarzschild / 2.0;
     });
   } else {
-    track.m = read_keyed(lens.require("mass", "a mass, like 1.989e31 kg (or radius: its Schwarzschild radius)"),
-                         geometric_mass);
+    track.m =
+        read_keyed(lens.require("mass", "a mass, like 1.989e31 kg (or radius: its Schwarzschild radius)"),
+                   geometric_mass);
   }
   track.position = read_keyed_vector(lens.require("position", "[x, y, z], lengths"), Dimension::Length);
   return track;
@@ -104,7 +108,8 @@ Method read_method(const std::optional<Value>& trace, const Value& root, NotYet&
   constexpr const char* kHint = "; write trace: {method: shinotsuka-makino} or {method: kishi}";
   const auto value = trace ? trace->find("method") : std::nullopt;
   if (!value) {
-    not_yet.add(trace ? *trace : root, std::string("trace.method: planes, which stands for no trace.method") + kHint);
+    not_yet.add(trace ? *trace : root,
+                std::string("trace.method: planes, which stands for no trace.method") + kHint);
     return Method::ShinotsukaMakino;
   }
   const std::string_view name = kNames[value->choice(kNames)];
@@ -134,7 +139,8 @@ Method read_trace(const Value& root, NotYet& not_yet) {
 
 ColourSettings read_colour(const Value& root) {
   ColourSettings settings;
-  for (LocatedText* name : {&settings.working, &settings.display, &settings.view}) name->location = root.location();
+  for (LocatedText* name : {&settings.working, &settings.display, &settings.view})
+    name->location = root.location();
   const auto colour = root.find("colour");
   if (!colour) return settings;
   colour->only_keys({"config", "working", "display", "view"});
@@ -216,14 +222,16 @@ void check_look_at(const Value& root, const Shot& shot) {
   const auto* layer = look_at ? std::get_if<LayerIndex>(&look_at->target) : nullptr;
   if (!layer || std::holds_alternative<SphereLayer>(shot.layers[layer->index].kind)) return;
   const Value value = *root.find("camera")->find("look_at");
-  value.refuse(in_quotes(value.text()) + " has no centre to look at; allowed: a lens, a sphere, or [x, y, z]");
+  value.refuse(in_quotes(value.text()) +
+               " has no centre to look at; allowed: a lens, a sphere, or [x, y, z]");
 }
 
 }  // namespace
 
 Shot shot_from_yaml(const YamlNode& tree) {
   const Value root(tree, "");
-  root.only_keys({"lensplane", "shot", "frames", "fps", "camera", "lenses", "layers", "trace", "colour", "output"});
+  root.only_keys(
+      {"lensplane", "shot", "frames", "fps", "camera", "lenses", "layers", "trace", "colour", "output"});
   read_version(root);
   NotYet not_yet;
   Shot shot;
@@ -258,9 +266,12 @@ Shot read_shot(const std::filesystem::path& path, const std::vector<std::string>
   shot.file = path.string();
 
   const std::filesystem::path folder = path.parent_path();
-  const auto beside_shot = [&folder](const std::string& file) { return (folder / file).lexically_normal().string(); };
+  const auto beside_shot = [&folder](const std::string& file) {
+    return (folder / file).lexically_normal().string();
+  };
   for (Layer& layer : shot.layers) {
-    if (!layer.image.pattern.starts_with(kShippedPrefix)) layer.image.pattern = beside_shot(layer.image.pattern);
+    if (!layer.image.pattern.starts_with(kShippedPrefix))
+      layer.image.pattern = beside_shot(layer.image.pattern);
   }
   if (shot.colour.config) shot.colour.config->text = beside_shot(shot.colour.config->text);
   shot.output.directory = beside_shot(shot.output.directory.string());

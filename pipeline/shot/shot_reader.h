@@ -12,8 +12,8 @@
 
 namespace lensplane {
 
-/// Reads the shot file, with `settings` ("key.path=value") put over what it says. Reads no other file. Throws Failure
-/// with one line that says where, which key, what is wrong and what is allowed.
+/// Reads the shot file, with `settings` ("key.path=value") put over what it says. Reads no other file. Throws
+/// Failure with one line that says where, which key, what is wrong and what is allowed.
 Shot read_shot(const std::filesystem::path& path, const std::vector<std::string>& settings = {});
 
 /// The same from a tree that is already there.

@@ -33,7 +33,8 @@ Basis axes_at(const Shot& shot, const Vec3& position, double frame) {
     return basis_from_zxy(value_at(rotation->angles, frame));
   }
   const auto& look_at = std::get<LookAt>(orientation);
-  const Basis axes = basis_looking_along(target_of(shot, look_at, frame) - position, value_at(look_at.up, frame));
+  const Basis axes =
+      basis_looking_along(target_of(shot, look_at, frame) - position, value_at(look_at.up, frame));
   if (!is_valid(axes)) {
     refuse(look_at.location, "camera.look_at",
            fmt::format("at frame {} the camera looks at its own position or straight along up", frame));

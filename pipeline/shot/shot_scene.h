@@ -9,8 +9,8 @@
 
 namespace lensplane {
 
-/// The scene at a frame (fractions allowed); its surfaces are the shot's layers, in the shot's order. Throws Failure
-/// (BadShot) when the camera looks nowhere: at its own position, or straight along `up`.
+/// The scene at a frame (fractions allowed); its surfaces are the shot's layers, in the shot's order. Throws
+/// Failure (BadShot) when the camera looks nowhere: at its own position, or straight along `up`.
 Scene scene_at(const Shot& shot, double frame);
 
 /// A sphere's direction towards the light in the world; nothing for other layers and spheres without.

@@ -13,10 +13,14 @@ namespace {
 
 std::string_view noun_of(YamlNode::Kind kind) {
   switch (kind) {
-    case YamlNode::Kind::Null: return "nothing";
-    case YamlNode::Kind::Scalar: return "a plain value";
-    case YamlNode::Kind::Sequence: return "a list";
-    case YamlNode::Kind::Map: return "a map of keys";
+    case YamlNode::Kind::Null:
+      return "nothing";
+    case YamlNode::Kind::Scalar:
+      return "a plain value";
+    case YamlNode::Kind::Sequence:
+      return "a list";
+    case YamlNode::Kind::Map:
+      return "a map of keys";
   }
   return {};
 }
@@ -32,10 +36,13 @@ void Value::refuse(const std::string& what) const {
 }
 
 void Value::only_keys(std::initializer_list<std::string_view> allowed) const {
-  if (!is_map()) refuse(fmt::format("{} where a map is needed, with the keys {}", noun_of(node_->kind), comma_list(allowed)));
+  if (!is_map())
+    refuse(
+        fmt::format("{} where a map is needed, with the keys {}", noun_of(node_->kind), comma_list(allowed)));
   for (const YamlKey& key : node_->keys) {
     if (std::find(allowed.begin(), allowed.end(), key.name) != allowed.end()) continue;
-    lensplane::refuse(key.location, join_key(key_, in_quotes(key.name).substr(1, in_quotes(key.name).size() - 2)),
+    lensplane::refuse(key.location,
+                      join_key(key_, in_quotes(key.name).substr(1, in_quotes(key.name).size() - 2)),
                       fmt::format("unknown key; allowed: {}", comma_list(allowed)));
   }
 }
@@ -67,7 +74,8 @@ std::vector<Value> Value::items() const {
     // Lenses and layers are known by their names.
     const YamlNode* name = node_->items[i].find("name");
     const bool named = name && name->kind == YamlNode::Kind::Scalar;
-    values.emplace_back(node_->items[i], join_key(key_, named ? name->text.substr(0, 60) : std::to_string(i)));
+    values.emplace_back(node_->items[i],
+                        join_key(key_, named ? name->text.substr(0, 60) : std::to_string(i)));
   }
   return values;
 }
@@ -78,7 +86,8 @@ std::vector<Value> Value::items(std::size_t count, std::string_view what) const 
 }
 
 std::string Value::text() const {
-  if (node_->kind != YamlNode::Kind::Scalar) refuse(fmt::format("{} where text is needed", noun_of(node_->kind)));
+  if (node_->kind != YamlNode::Kind::Scalar)
+    refuse(fmt::format("{} where text is needed", noun_of(node_->kind)));
   if (node_->text.empty()) refuse("empty; text is needed");
   return node_->text;
 }
@@ -128,8 +137,9 @@ std::size_t Value::choice(std::span<const std::string_view> allowed) const {
 
 Vec3 Value::vector(Dimension dimension) const {
   const std::string unit = units_of(dimension).substr(0, units_of(dimension).find(','));
-  const auto xyz = items(3, fmt::format("a list of three, [x, y, z], each {}{}{}", lensplane::noun_of(dimension),
-                                        unit.empty() ? "" : ", like 1 ", unit));
+  const auto xyz =
+      items(3, fmt::format("a list of three, [x, y, z], each {}{}{}", lensplane::noun_of(dimension),
+                           unit.empty() ? "" : ", like 1 ", unit));
   return {xyz[0].quantity(dimension), xyz[1].quantity(dimension), xyz[2].quantity(dimension)};
 }
 
@@ -150,7 +160,8 @@ std::optional<KeyFrames> find_key_frames(const Value& value) {
     const ParsedQuantity frame = parse_quantity(key.name, Dimension::Number);
     if (!frame.error.empty()) refuse(key.location, keys.key(), "the frame " + frame.error);
     if (!result.frames.empty() && !(frame.value > result.frames.back())) {
-      refuse(key.location, at_key.key(), fmt::format("frame {} does not come after frame {}", key.name, result.frames.back()));
+      refuse(key.location, at_key.key(),
+             fmt::format("frame {} does not come after frame {}", key.name, result.frames.back()));
     }
     result.frames.push_back(frame.value);
     result.values.push_back(at_key);

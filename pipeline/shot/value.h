@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A value of the shot file on its way from text to number: the YAML node together with the key that leads to it, so that
-// every refusal says where, which key, what is wrong, and what is allowed.
+// A value of the shot file on its way from text to number: the YAML node together with the key that leads to
+// it, so that every refusal says where, which key, what is wrong, and what is allowed.
 
 #pragma once
 
@@ -69,7 +69,8 @@ class Value {
   std::string key_;
 };
 
-/// A value that is constant or keyed, `{keys: {FRAME: VALUE, ...}, interpolate: ...}`; `read` reads one Value.
+/// A value that is constant or keyed, `{keys: {FRAME: VALUE, ...}, interpolate: ...}`; `read` reads one
+/// Value.
 template <class Read>
 auto read_keyed(const Value& value, Read read) -> Keyed<decltype(read(value))>;
 

@@ -34,7 +34,8 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     refuse_tag(mark, tag);
-    add({.kind = YamlNode::Kind::Scalar, .location = at(mark), .text = value, .keys = {}, .items = {}}, anchor);
+    add({.kind = YamlNode::Kind::Scalar, .location = at(mark), .text = value, .keys = {}, .items = {}},
+        anchor);
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchors_.find(anchor);
@@ -73,7 +74,8 @@ class TreeBuilder : public YAML::EventHandler {
 
   void refuse_too_many(const Location& location) const {
     if (count_ > kMaxYamlNodes) {
-      refuse(location, "", fmt::format("more than {} values, aliases counted as what they stand for", kMaxYamlNodes));
+      refuse(location, "",
+             fmt::format("more than {} values, aliases counted as what they stand for", kMaxYamlNodes));
     }
   }
 
@@ -83,7 +85,8 @@ class TreeBuilder : public YAML::EventHandler {
       refuse(at(mark), "", fmt::format("nested more than {} levels deep", kMaxYamlDepth));
     }
     if (awaits_key()) refuse(at(mark), "", "a key has to be plain text, not a list or a map");
-    open_.push_back({{.kind = kind, .location = at(mark), .text = {}, .keys = {}, .items = {}}, anchor, count_});
+    open_.push_back(
+        {{.kind = kind, .location = at(mark), .text = {}, .keys = {}, .items = {}}, anchor, count_});
   }
 
   void close() {
@@ -114,7 +117,8 @@ class TreeBuilder : public YAML::EventHandler {
 
   void add_key(const YamlNode& key) {
     if (key.kind != YamlNode::Kind::Scalar) refuse(key.location, "", "a key has to be plain text");
-    if (!open_.back().names.insert(key.text).second) refuse(key.location, key.text, "this key stands here twice");
+    if (!open_.back().names.insert(key.text).second)
+      refuse(key.location, key.text, "this key stands here twice");
     open_.back().node.keys.push_back({key.text, key.location});
   }
 
@@ -135,11 +139,16 @@ Location locate(const std::string& text, std::size_t offset, const std::string& 
   return location;
 }
 
-/// Length of the UTF-8 sequence that starts at text[i] (overlong forms are let through), 0 when there is none.
+/// Length of the UTF-8 sequence that starts at text[i] (overlong forms are let through), 0 when there is
+/// none.
 std::size_t utf8_length(const std::string& text, std::size_t i) {
   const auto byte = [&text](std::size_t at) { return static_cast<unsigned char>(text[at]); };
   const unsigned char first = byte(i);
-  const std::size_t length = first < 0x80 ? 1 : first >> 5 == 6 ? 2 : first >> 4 == 14 ? 3 : first >> 3 == 30 ? 4 : 0;
+  const std::size_t length = first < 0x80       ? 1
+                             : first >> 5 == 6  ? 2
+                             : first >> 4 == 14 ? 3
+                             : first >> 3 == 30 ? 4
+                                                : 0;
   if (i + length > text.size()) return 0;
   for (std::size_t k = 1; k < length; ++k) {
     if (byte(i + k) >> 6 != 2) return 0;

@@ -2,8 +2,9 @@
 //
 // YAML as a plain tree in which every key and value knows where it stands.
 //
-// Built from yaml-cpp's events rather than its own nodes, because those neither report duplicate keys nor stop at
-// hostile input: text that is huge, binary, nested without end, or that grows explosively through aliases.
+// Built from yaml-cpp's events rather than its own nodes, because those neither report duplicate keys nor
+// stop at hostile input: text that is huge, binary, nested without end, or that grows explosively through
+// aliases.
 
 #pragma once
 

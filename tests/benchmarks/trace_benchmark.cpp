@@ -12,10 +12,16 @@
 namespace lensplane {
 namespace {
 
-/// The paper's Fig. 6: three sources at three depths, not in a line; a plate at infinity behind them, or the Earth.
+/// The paper's Fig. 6: three sources at three depths, not in a line; a plate at infinity behind them, or the
+/// Earth.
 Scene three_sources(const Surface& surface) {
   Scene scene;
-  scene.camera = {.width = 3840, .height = 2160, .overscan = 0, .fov_rad = 3.0 * kPi / 180.0, .position = Vec3(0), .axes = {}};
+  scene.camera = {.width = 3840,
+                  .height = 2160,
+                  .overscan = 0,
+                  .fov_rad = 3.0 * kPi / 180.0,
+                  .position = Vec3(0),
+                  .axes = {}};
   const double m = geometric_mass_from_kg(1.989e31);
   const double side = 5.95e6;
   scene.lenses = {{m, {-side, -0.5 * side, -0.4 * 1.09e9}},

@@ -74,7 +74,8 @@ TEST(CommandLine, WrongCommandLinesAreExitOne) {
   expect_refused(lensplane({"render"}), 1, "SHOT");
   expect_refused(lensplane({"render", "x.yaml", "--proxy", "0"}), 1, "--proxy");
   expect_refused(lensplane({"render", "x.yaml", "--threads", "many"}), 1, "--threads");
-  expect_refused(lensplane({"render", kScenes + "seed-fig5.yaml", "-f", "9-1"}), 1, "-f: \"9-1\" ends before it starts");
+  expect_refused(lensplane({"render", kScenes + "seed-fig5.yaml", "-f", "9-1"}), 1,
+                 "-f: \"9-1\" ends before it starts");
 }
 
 TEST(CommandLine, CheckReadsNoImage) {
@@ -102,11 +103,15 @@ TEST(CommandLine, ShippedScenesAreRight) {
 TEST(CommandLine, MistakesAreLocatedAndMissingFilesAreExitTwo) {
   const TemporaryFolder folder;
   const auto shot = folder.write("small.yaml", kSmallShot).string();
-  expect_refused(lensplane({"check", shot, "--set", "camera.fov=3 m"}), 1, "--set camera.fov:1:1: camera.fov: \"3 m\" is a");
+  expect_refused(lensplane({"check", shot, "--set", "camera.fov=3 m"}), 1,
+                 "--set camera.fov:1:1: camera.fov: \"3 m\" is a");
   expect_refused(lensplane({"check", (folder / "none.yaml").string()}), 2, "none.yaml: no such shot file");
-  expect_refused(lensplane({"check", shot}, {"OCIO=/nowhere.ocio"}), 2, "/nowhere.ocio: the OCIO config that $OCIO names");
-  expect_refused(lensplane({"check", shot, "--set", "colour.config=none.ocio"}), 2, "none.ocio: the OCIO config");
-  expect_refused(lensplane({"render", shot, "--set", "colour.view=None"}), 1, "colour.view: \"None\" is no view");
+  expect_refused(lensplane({"check", shot}, {"OCIO=/nowhere.ocio"}), 2,
+                 "/nowhere.ocio: the OCIO config that $OCIO names");
+  expect_refused(lensplane({"check", shot, "--set", "colour.config=none.ocio"}), 2,
+                 "none.ocio: the OCIO config");
+  expect_refused(lensplane({"render", shot, "--set", "colour.view=None"}), 1,
+                 "colour.view: \"None\" is no view");
 }
 
 TEST(CommandLine, RenderWritesMapsPictureAndReview) {
@@ -119,7 +124,8 @@ TEST(CommandLine, RenderWritesMapsPictureAndReview) {
   EXPECT_THAT(result.out, HasSubstr("A(earth) = "));
   EXPECT_EQ(names_of(folder / "out"),
             (std::vector<std::string>{"small.1001.exr", "small.1002.exr", "small.earth.map.1001.exr",
-                                      "small.earth.map.1002.exr", "small.review.1001.png", "small.review.1002.png"}));
+                                      "small.earth.map.1002.exr", "small.review.1001.png",
+                                      "small.review.1002.png"}));
   const auto stats = nlohmann::json::parse(contents_of(folder / "stats.json"));
   EXPECT_EQ(stats["frames"].size(), 2U);
   EXPECT_GT(stats["frames"][0]["amplification"]["earth"].get<double>(), 1.0);
@@ -141,7 +147,9 @@ TEST(CommandLine, SameBytesForAnyNumberOfThreads) {
   const TemporaryFolder folder;
   const auto shot = folder.write("small.yaml", kSmallShot).string();
   for (const char* threads : {"1", "2", "7"}) {
-    ASSERT_EQ(lensplane({"render", shot, "--threads", threads, "--output", (folder / threads).string()}).exit_code, 0);
+    ASSERT_EQ(
+        lensplane({"render", shot, "--threads", threads, "--output", (folder / threads).string()}).exit_code,
+        0);
   }
   EXPECT_EQ(files_of(folder / "1"), files_of(folder / "2"));
   EXPECT_EQ(files_of(folder / "1"), files_of(folder / "7"));
@@ -168,7 +176,8 @@ TEST(CommandLine, SecondRunSkipsWhatIsDoneAndRedoesWhatIsNot) {
   const std::string third = lensplane({"render", shot}).out;
   EXPECT_EQ(third.find("already done"), std::string::npos);
   EXPECT_EQ(files_of(folder / "out"), files);
-  EXPECT_EQ(lensplane({"render", shot, "--set", "lenses.near.mass=2e31 kg"}).out.find("already done"), std::string::npos);
+  EXPECT_EQ(lensplane({"render", shot, "--set", "lenses.near.mass=2e31 kg"}).out.find("already done"),
+            std::string::npos);
   EXPECT_EQ(lensplane({"render", shot, "--proxy", "2"}).out.find("already done"), std::string::npos);
 }
 
@@ -176,14 +185,15 @@ TEST(CommandLine, UnwritableOutputIsExitThree) {
   const TemporaryFolder folder;
   const auto shot = folder.write("small.yaml", kSmallShot).string();
   folder.write("file", "in the way");
-  expect_refused(lensplane({"render", shot, "--quiet", "--output", (folder / "file/out").string()}), 3, "cannot be written");
+  expect_refused(lensplane({"render", shot, "--quiet", "--output", (folder / "file/out").string()}), 3,
+                 "cannot be written");
 }
 
 TEST(CommandLine, InterruptedRunIsExit75AndGoesOnLater) {
   const TemporaryFolder folder, output;
   const auto shot = folder.write("small.yaml", kSmallShot).string();
-  const std::vector<std::string> words = {LENSPLANE_PROGRAM, "render",        shot, "-f", "1001-9000", "--set",
-                                          "camera.resolution=[200, 200]"};
+  const std::vector<std::string> words = {
+      LENSPLANE_PROGRAM, "render", shot, "-f", "1001-9000", "--set", "camera.resolution=[200, 200]"};
   const pid_t process = start_program(words, output);
   const auto first_frame = folder / "out/small.1001.exr";
   for (int i = 0; i < 600 && !std::filesystem::exists(first_frame); ++i) {
@@ -192,8 +202,10 @@ TEST(CommandLine, InterruptedRunIsExit75AndGoesOnLater) {
   ::kill(process, SIGTERM);
   const ProgramResult result = wait_for(process, output);
   expect_refused(result, 75, "the same command goes on from there");
-  for (const std::string& name : names_of(folder / "out")) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
-  const ProgramResult again = lensplane({"render", shot, "-f", "1001", "--set", "camera.resolution=[200, 200]"});
+  for (const std::string& name : names_of(folder / "out"))
+    EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+  const ProgramResult again =
+      lensplane({"render", shot, "-f", "1001", "--set", "camera.resolution=[200, 200]"});
   EXPECT_THAT(again.out, HasSubstr("1001: already done"));
 }
 

@@ -32,7 +32,8 @@ void write_smooth_plate(const std::filesystem::path& path, int width, int height
   ASSERT_TRUE(plate.write(path.string()));
 }
 
-// Ours averages 4 x 4 bilinear lookups over a pixel, st_warp filters its own way; on a smooth plate both are the same.
+// Ours averages 4 x 4 bilinear lookups over a pixel, st_warp filters its own way; on a smooth plate both are
+// the same.
 constexpr double kStWarpError = 1e-3;
 
 TEST(Picture, OiiotoolAppliesOurMapAsWeDo) {
@@ -71,7 +72,8 @@ output: {directory: ., image: {type: float}}
       if (!inside || steep > 8) continue;
       ++compared;
       moved = std::max(moved, std::abs(s - (x + 0.5) / 400));
-      for (int c = 0; c < 3; ++c) ASSERT_NEAR(a.getchannel(x, y, 0, c), b.getchannel(x, y, 0, c), kStWarpError) << x << " " << y;
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(a.getchannel(x, y, 0, c), b.getchannel(x, y, 0, c), kStWarpError) << x << " " << y;
     }
   }
   EXPECT_GT(compared, 60000);
@@ -93,8 +95,8 @@ struct Landmark {
   double latitude;
 };
 
-/// The Earth seen from far away without lenses, its texture shown as it is: every landmark lies where the map of the
-/// Earth has it, east to the right, north up.
+/// The Earth seen from far away without lenses, its texture shown as it is: every landmark lies where the map
+/// of the Earth has it, east to the right, north up.
 TEST(Picture, EarthIsTheRightWayRound) {
   const TemporaryFolder folder;
   const auto shot = folder.write("earth.yaml", R"(lensplane: 1
@@ -117,25 +119,30 @@ output: {directory: ., image: {type: float}, review: none}
   const double degree = std::acos(-1.0) / 180;
   // Frame, tilt about x, turn about y.
   const std::array<std::array<double, 3>, 3> views = {{{1, 0, 0}, {2, 0, -80}, {3, 30, 100}}};
-  const Landmark landmarks[] = {{"Sahara", 10, 23},    {"Congo", 22, 0},         {"Atlantic", -20, 0}, {"India", 78, 20},
-                                {"Arabia", 48, 22},    {"South Pole", 0, -89.9}, {"Greenland", -40, 72}, {"Brazil", -55, -8},
-                                {"Indian Ocean", 80, -10}, {"Madagascar", 46.5, -19.5}};
+  const Landmark landmarks[] = {{"Sahara", 10, 23},         {"Congo", 22, 0},    {"Atlantic", -20, 0},
+                                {"India", 78, 20},          {"Arabia", 48, 22},  {"South Pole", 0, -89.9},
+                                {"Greenland", -40, 72},     {"Brazil", -55, -8}, {"Indian Ocean", 80, -10},
+                                {"Madagascar", 46.5, -19.5}};
   int seen = 0;
   for (const auto& [frame, tilt, turn] : views) {
-    const OIIO::ImageBuf picture = read(folder / ("earth.000" + std::to_string(static_cast<int>(frame)) + ".exr"));
+    const OIIO::ImageBuf picture =
+        read(folder / ("earth.000" + std::to_string(static_cast<int>(frame)) + ".exr"));
     for (const Landmark& place : landmarks) {
       // The place on a unit globe, longitude 0 towards +z, then tilted about x and turned about y.
-      const double lon = place.longitude * degree, lat = place.latitude * degree, a = tilt * degree, b = turn * degree;
+      const double lon = place.longitude * degree, lat = place.latitude * degree, a = tilt * degree,
+                   b = turn * degree;
       const double x0 = std::sin(lon) * std::cos(lat), y0 = std::sin(lat), z0 = std::cos(lon) * std::cos(lat);
       const double y1 = y0 * std::cos(a) - z0 * std::sin(a), z1 = y0 * std::sin(a) + z0 * std::cos(a);
       const double x2 = x0 * std::cos(b) + z1 * std::sin(b), z2 = z1 * std::cos(b) - x0 * std::sin(b);
       if (z2 < 0.35) continue;  // on the far side, or too near the limb
       const double slope = 401 / (2 * std::tan(degree));
-      const double px = 200.5 + slope * 15 * x2 / (1000 - 15 * z2), py = 200.5 - slope * 15 * y1 / (1000 - 15 * z2);
+      const double px = 200.5 + slope * 15 * x2 / (1000 - 15 * z2),
+                   py = 200.5 - slope * 15 * y1 / (1000 - 15 * z2);
       std::array<float, 4> got{};
       picture.interppixel(static_cast<float>(px), static_cast<float>(py), got.data());
       const auto expected = texture_at(texture, place.longitude, place.latitude);
-      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(got[c], expected[c], 0.12) << place.what << " frame " << frame;
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(got[c], expected[c], 0.12) << place.what << " frame " << frame;
       ++seen;
     }
   }
@@ -148,7 +155,7 @@ TEST(Picture, SkyLooksWhereTheContractSays) {
   OIIO::ImageBuf sky(OIIO::ImageSpec(400, 200, 3, OIIO::TypeDesc::FLOAT));
   for (OIIO::ImageBuf::Iterator<float> p(sky); !p.done(); ++p) {
     const double s = (p.x() + 0.5) / 400;
-    const bool left = s > 0.125 && s < 0.375, ahead = s > 0.375 && s < 0.625, right = s > 0.625 && s < 0.875;
+    const bool left = s > 0.125 && s<0.375, ahead = s> 0.375 && s<0.625, right = s> 0.625 && s < 0.875;
     p[0] = !left && !ahead;
     p[1] = left || right;
     p[2] = ahead || right;
@@ -169,7 +176,8 @@ output: {directory: ., image: {type: float}, review: none}
   const float expected[4][3] = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1}};  // ahead, left, behind, right
   for (int frame = 1; frame <= 4; ++frame) {
     const OIIO::ImageBuf picture = read(folder / ("sky.000" + std::to_string(frame) + ".exr"));
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(picture.getchannel(4, 4, 0, c), expected[frame - 1][c], 1e-5) << frame;
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(picture.getchannel(4, 4, 0, c), expected[frame - 1][c], 1e-5) << frame;
   }
 }
 
@@ -177,7 +185,8 @@ TEST(Picture, PlateSequencesAreReadFrameByFrame) {
   const TemporaryFolder folder;
   for (int frame = 5; frame <= 6; ++frame) {
     OIIO::ImageBuf plate(OIIO::ImageSpec(8, 8, 3, OIIO::TypeDesc::FLOAT));
-    for (OIIO::ImageBuf::Iterator<float> p(plate); !p.done(); ++p) p[0] = p[1] = p[2] = static_cast<float>(frame) / 10;
+    for (OIIO::ImageBuf::Iterator<float> p(plate); !p.done(); ++p)
+      p[0] = p[1] = p[2] = static_cast<float>(frame) / 10;
     ASSERT_TRUE(plate.write((folder / ("bg.000" + std::to_string(frame) + ".exr")).string()));
   }
   const auto shot = folder.write("plate.yaml", R"(lensplane: 1

@@ -52,15 +52,18 @@ inline pid_t start_program(const std::vector<std::string>& words, const Temporar
 inline ProgramResult wait_for(pid_t process, const TemporaryFolder& folder) {
   int status = 0;
   ::waitpid(process, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents_of(folder / "out"), contents_of(folder / "err")};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents_of(folder / "out"),
+          contents_of(folder / "err")};
 }
 
-inline ProgramResult run_program(const std::vector<std::string>& words, const std::vector<std::string>& environment = {}) {
+inline ProgramResult run_program(const std::vector<std::string>& words,
+                                 const std::vector<std::string>& environment = {}) {
   const TemporaryFolder folder;
   return wait_for(start_program(words, folder, environment), folder);
 }
 
-inline ProgramResult lensplane(std::vector<std::string> words, const std::vector<std::string>& environment = {}) {
+inline ProgramResult lensplane(std::vector<std::string> words,
+                               const std::vector<std::string>& environment = {}) {
   words.insert(words.begin(), LENSPLANE_PROGRAM);
   return run_program(words, environment);
 }

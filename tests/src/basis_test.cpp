@@ -70,7 +70,8 @@ TEST(Basis, LocalFromParentUndoesParentFromLocal) {
   const Basis there_and_back = local_from_parent(a, parent_from_local(a, b));
   expect_near(there_and_back.x, b.x, 1e-15);
   expect_near(there_and_back.z, b.z, 1e-15);
-  expect_near(parent_from_local(a, b).parent_from_local(v), a.parent_from_local(b.parent_from_local(v)), 1e-14);
+  expect_near(parent_from_local(a, b).parent_from_local(v), a.parent_from_local(b.parent_from_local(v)),
+              1e-14);
 }
 
 }  // namespace

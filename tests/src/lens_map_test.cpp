@@ -32,7 +32,8 @@ TEST(LensMap, AmplificationsAreThoseOfThePapersTable) {
   const Vec3 none(0);
   EXPECT_NEAR(amplification_of(seed_scene(kResolution, none, none, none)) / 4.46, 1, kAmplificationError);
   EXPECT_NEAR(amplification_of(seed_fig6(kResolution)) / 2.50, 1, kAmplificationError);
-  const std::pair<double, double> moving[] = {{4.293e6, 1.92}, {3.250e6, 2.67}, {1.975e6, 3.89}, {0.636e6, 4.34}};
+  const std::pair<double, double> moving[] = {
+      {4.293e6, 1.92}, {3.250e6, 2.67}, {1.975e6, 3.89}, {0.636e6, 4.34}};
   for (const auto& [x, published] : moving) {
     const Scene scene = seed_scene(kResolution, {x - 2e6, 0, 0}, {x, 0, 0}, {x + 2e6, 0, 0});
     EXPECT_NEAR(amplification_of(scene) / published, 1, kAmplificationError) << x;

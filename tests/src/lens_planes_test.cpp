@@ -54,8 +54,8 @@ TEST(LensPlanes, OneDepthIsOnePlaneForATurnedCamera) {
 }
 
 TEST(LensPlanes, DepthsThatDifferStayApart) {
-  const auto planes = lens_planes(scene_with({{1, {0, 0, -1e9}}, {1, {0, 0, -1e9 * (1 + 1e-10)}}}),
-                                  Method::ShinotsukaMakino);
+  const auto planes =
+      lens_planes(scene_with({{1, {0, 0, -1e9}}, {1, {0, 0, -1e9 * (1 + 1e-10)}}}), Method::ShinotsukaMakino);
   EXPECT_EQ(planes.size(), 2U);
 }
 
@@ -65,7 +65,8 @@ TEST(LensPlanes, ZeroMassMakesNoPlane) {
 }
 
 TEST(LensPlanes, KishiPutsAllSourcesOnTheMassWeightedMeanDepth) {
-  const auto planes = lens_planes(scene_with({{1, {5, 1, -10}}, {3, {7, 2, -20}}, {4, {9, 3, -40}}}), Method::Kishi);
+  const auto planes =
+      lens_planes(scene_with({{1, {5, 1, -10}}, {3, {7, 2, -20}}, {4, {9, 3, -40}}}), Method::Kishi);
   ASSERT_EQ(planes.size(), 1U);
   EXPECT_DOUBLE_EQ(planes[0].z, -(1 * 10 + 3 * 20 + 4 * 40) / 8.0);
   ASSERT_EQ(planes[0].sources.size(), 3U);
@@ -73,14 +74,16 @@ TEST(LensPlanes, KishiPutsAllSourcesOnTheMassWeightedMeanDepth) {
 }
 
 TEST(LensPlanes, KishiLeavesOutSourcesBesideAndBehindTheCamera) {
-  const auto planes = lens_planes(scene_with({{1, {0, 0, 50}}, {1, {3, 0, 0}}, {2, {0, 0, -10}}}), Method::Kishi);
+  const auto planes =
+      lens_planes(scene_with({{1, {0, 0, 50}}, {1, {3, 0, 0}}, {2, {0, 0, -10}}}), Method::Kishi);
   ASSERT_EQ(planes.size(), 1U);
   EXPECT_EQ(planes[0].z, -10);
   EXPECT_EQ(planes[0].sources.size(), 1U);
 }
 
 TEST(LensPlanes, KishiMeanDepthDoesNotOverflow) {
-  const auto planes = lens_planes(scene_with({{1e300, {0, 0, -1e300}}, {1e300, {0, 0, -1e300}}}), Method::Kishi);
+  const auto planes =
+      lens_planes(scene_with({{1e300, {0, 0, -1e300}}, {1e300, {0, 0, -1e300}}}), Method::Kishi);
   ASSERT_EQ(planes.size(), 1U);
   EXPECT_DOUBLE_EQ(planes[0].z, -1e300);
 }

@@ -45,7 +45,8 @@ TEST(MarchBatch, AgreesWithTheReferenceThroughRandomPlanes) {
       LensPlane plane{-10.0 * (k + 1), {}};
       const double spread = -plane.z * camera.fov_rad / 2;
       for (int s = 0; s < 3; ++s) {
-        plane.sources.push_back({0.01 * spread * camera.fov_rad, spread * normal(random), spread * normal(random)});
+        plane.sources.push_back(
+            {0.01 * spread * camera.fov_rad, spread * normal(random), spread * normal(random)});
       }
       planes.push_back(plane);
     }

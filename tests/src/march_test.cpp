@@ -15,11 +15,21 @@ namespace {
 
 using Vec3l = std::array<long double, 3>;
 
-Vec3l minus(const Vec3l& a, const Vec3l& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec3l plus(const Vec3l& a, const Vec3l& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vec3l times(const Vec3l& a, long double k) { return {a[0] * k, a[1] * k, a[2] * k}; }
-long double length(const Vec3l& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
-Vec3l unit(const Vec3l& a) { return times(a, 1 / length(a)); }
+Vec3l minus(const Vec3l& a, const Vec3l& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Vec3l plus(const Vec3l& a, const Vec3l& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+Vec3l times(const Vec3l& a, long double k) {
+  return {a[0] * k, a[1] * k, a[2] * k};
+}
+long double length(const Vec3l& a) {
+  return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
+Vec3l unit(const Vec3l& a) {
+  return times(a, 1 / length(a));
+}
 Vec3l cross(const Vec3l& a, const Vec3l& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -35,7 +45,8 @@ Vec3l bend_by_hand(const Vec3l& v_ray, const Vec3l& p_g, const Vec3l& q, long do
 }
 
 void expect_same_direction(const Vec3& ours, const Vec3l& by_hand, double tolerance) {
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(ours[k], static_cast<double>(by_hand[static_cast<std::size_t>(k)]), tolerance);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(ours[k], static_cast<double>(by_hand[static_cast<std::size_t>(k)]), tolerance);
 }
 
 TEST(Bend, IsThePapersEquations) {
@@ -67,7 +78,7 @@ TEST(Bend, RotatesByAlphaTowardsTheSourceBeyondARightAngle) {
 
 TEST(Bend, OnTheSourceOrStraightAtItIsCaptured) {
   EXPECT_FALSE(bend({0, 0, -1}, {0, 0, 0}, 1));
-  EXPECT_FALSE(bend({1, 0, 0}, {5, 0, 0}, 1));   // V_g parallel to V_ray
+  EXPECT_FALSE(bend({1, 0, 0}, {5, 0, 0}, 1));        // V_g parallel to V_ray
   EXPECT_FALSE(bend({0, 0, -1}, {1e-310, 0, 0}, 1));  // alpha is no number any more
 }
 

@@ -11,7 +11,8 @@ namespace {
 
 TEST(Plan, SaysInOneLineWhatIsSimulated) {
   const Scene scene = seed_fig6(100);
-  EXPECT_EQ(describe(plan_trace(scene, Method::ShinotsukaMakino)), "shinotsuka-makino: weak law, 3 sources on 3 planes");
+  EXPECT_EQ(describe(plan_trace(scene, Method::ShinotsukaMakino)),
+            "shinotsuka-makino: weak law, 3 sources on 3 planes");
   EXPECT_EQ(describe(plan_trace(scene, Method::Kishi)), "kishi: weak law, 3 sources on 1 plane");
 }
 

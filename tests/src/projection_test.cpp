@@ -30,7 +30,8 @@ TEST(Projection, FieldOfViewIsTheFullHorizontalAngle) {
     const Camera camera = camera_with(800, 400, fov);
     const Vec3 left = direction_from_pixel(camera, {0, 200});
     const Vec3 right = direction_from_pixel(camera, {800, 200});
-    EXPECT_NEAR(std::atan2(right.x, -right.z) - std::atan2(left.x, -left.z), camera.fov_rad, 1e-14 * camera.fov_rad);
+    EXPECT_NEAR(std::atan2(right.x, -right.z) - std::atan2(left.x, -left.z), camera.fov_rad,
+                1e-14 * camera.fov_rad);
   }
 }
 

@@ -9,12 +9,14 @@
 
 namespace lensplane {
 
-inline constexpr double kSeedMassKg = 1.989e31;        // every source of the paper
-inline constexpr double kSeedDistance = 1.09e9;        // m, to the Earth
-inline constexpr double kSeedEarthRadius = 6.371e6;    // m
+inline constexpr double kSeedMassKg = 1.989e31;      // every source of the paper
+inline constexpr double kSeedDistance = 1.09e9;      // m, to the Earth
+inline constexpr double kSeedEarthRadius = 6.371e6;  // m
 inline constexpr double kDegree = kPi / 180.0;
 
-inline double seed_m() { return geometric_mass_from_kg(kSeedMassKg); }
+inline double seed_m() {
+  return geometric_mass_from_kg(kSeedMassKg);
+}
 
 /// The paper's scene with sources at these sideways offsets, at 0.4, 0.5 and 0.6 of the Earth's distance.
 inline Scene seed_scene(int resolution, const Vec3& near, const Vec3& middle, const Vec3& far) {

@@ -27,7 +27,8 @@ TEST(Surfaces, SkyCoordinatesAreThoseOfTheContract) {
 
 TEST(Surfaces, SphereCoordinatesHaveLongitudeZeroInTheMiddleAndEastToTheRight) {
   expect_st(st_from_sphere_normal({0, 0, 1}), 0.5, 0.5);
-  expect_st(st_from_sphere_normal({1, 0, 0}), 0.75, 0.5);  // 90 deg east, to the right of a camera that looks along -z
+  expect_st(st_from_sphere_normal({1, 0, 0}), 0.75,
+            0.5);  // 90 deg east, to the right of a camera that looks along -z
   EXPECT_NEAR(st_from_sphere_normal({0, 1, 0}).t, 1, 1e-15);
 }
 
@@ -50,9 +51,9 @@ TEST(Surfaces, RaysEnterSpheresFromOutsideOnly) {
   EXPECT_DOUBLE_EQ(sphere_entry({0, 0, 0}, ahead, {0, 0, -10}, 2), 8);
   EXPECT_DOUBLE_EQ(sphere_entry({0, 0, 0}, ahead, {2, 0, -10}, 2), 10);  // grazes
   EXPECT_TRUE(std::isinf(sphere_entry({0, 0, 0}, ahead, {2.001, 0, -10}, 2)));
-  EXPECT_TRUE(std::isinf(sphere_entry({0, 0, 0}, ahead, {0, 0, 10}, 2)));   // behind
-  EXPECT_TRUE(std::isinf(sphere_entry({0, 0, 0}, ahead, {0, 0, -1}, 2)));   // from inside
-  EXPECT_NEAR(sphere_entry({0, 0, 0}, ahead, {0, 0, -2}, 2), 0, 1e-15);     // from the surface inwards
+  EXPECT_TRUE(std::isinf(sphere_entry({0, 0, 0}, ahead, {0, 0, 10}, 2)));  // behind
+  EXPECT_TRUE(std::isinf(sphere_entry({0, 0, 0}, ahead, {0, 0, -1}, 2)));  // from inside
+  EXPECT_NEAR(sphere_entry({0, 0, 0}, ahead, {0, 0, -2}, 2), 0, 1e-15);    // from the surface inwards
 }
 
 TEST(Surfaces, EntryIsAccurateForASmallBallFarAway) {

@@ -48,7 +48,8 @@ void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b
   EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0);
 }
 
-/// Whether a ray at this angle off the axis meets the axis before (negative) or beyond (positive) the distance D_s.
+/// Whether a ray at this angle off the axis meets the axis before (negative) or beyond (positive) the
+/// distance D_s.
 double miss_of_axis(const Plan& plan, double theta, double d_s) {
   const RayPath path = march(plan.planes, Vec3(0), Vec3(std::sin(theta), 0, -std::cos(theta)));
   const RaySegment& last = path.segments.back();
@@ -92,12 +93,15 @@ TEST(Tracer, AlignedPlanesHaveTheirPublishedRings) {
     const Plan plan = plan_trace(scene, Method::ShinotsukaMakino);
     const double theta = std::sqrt(theta2 * 4 * m / h);
     // The miss changes sign between 1e-9 below and above the ring.
-    return miss_of_axis(plan, theta * (1 - 1e-9), (n + 1) * h) * miss_of_axis(plan, theta * (1 + 1e-9), (n + 1) * h) < 0;
+    return miss_of_axis(plan, theta * (1 - 1e-9), (n + 1) * h) *
+               miss_of_axis(plan, theta * (1 + 1e-9), (n + 1) * h) <
+           0;
   };
   EXPECT_TRUE(rings_at(1, 0.5));
   EXPECT_TRUE(rings_at(2, 1.0));
   EXPECT_TRUE(rings_at(2, 1.0 / 3.0));
-  for (const double theta2 : {1.39038820320220757, .359611796797792431, .883795939621999108, .282870727044667559}) {
+  for (const double theta2 :
+       {1.39038820320220757, .359611796797792431, .883795939621999108, .282870727044667559}) {
     EXPECT_TRUE(rings_at(3, theta2)) << theta2;
   }
   EXPECT_FALSE(rings_at(3, 0.7));
@@ -106,9 +110,10 @@ TEST(Tracer, AlignedPlanesHaveTheirPublishedRings) {
 TEST(Tracer, RayThroughFlatPlanesMeetsItsPublishedPoint) {
   // Small-angle figures: all angles and sideways lengths scaled by k.
   const double k = 1e-5;
-  const std::vector<LensPlane> planes = {{-10, {{.01 * k * k, .3 * k, -.2 * k}, {.02 * k * k, -.5 * k, .4 * k}}},
-                                         {-20, {{.015 * k * k, .1 * k, .6 * k}}},
-                                         {-30, {{.005 * k * k, -.2 * k, -.7 * k}}}};
+  const std::vector<LensPlane> planes = {
+      {-10, {{.01 * k * k, .3 * k, -.2 * k}, {.02 * k * k, -.5 * k, .4 * k}}},
+      {-20, {{.015 * k * k, .1 * k, .6 * k}}},
+      {-30, {{.005 * k * k, -.2 * k, -.7 * k}}}};
   const RayPath path = march(planes, Vec3(0), Vec3(.11 * k, .07 * k, -1).normalized());
   const RaySegment& last = path.segments.back();
   const Vec3 end = last.start + last.direction * ((-40 - last.start.z) / last.direction.z);
@@ -138,7 +143,8 @@ TEST(Tracer, PlateWithoutLensesIsTheIdentityBitForBit) {
 }
 
 TEST(Tracer, ZeroMassChangesNothingBitForBit) {
-  for (const Surface& surface : {Surface(Plate{}), Surface(LatLong{}), Surface(Sphere{{0, 0, -1e9}, 6e6, {}})}) {
+  for (const Surface& surface :
+       {Surface(Plate{}), Surface(LatLong{}), Surface(Sphere{{0, 0, -1e9}, 6e6, {}})}) {
     const Scene heavy = with_surface(seed_fig6(400), surface);
     Scene with_zero = heavy;
     with_zero.lenses.insert(with_zero.lenses.begin() + 1, {0, {1e6, 0, -4.7e8}});
@@ -158,8 +164,9 @@ TEST(Tracer, BatchesAgreeWithTheReferenceOnEverySurface) {
   Scene scene = seed_fig6(400);
   scene.camera.position = Vec3(3e6, -2e6, 5e7);
   scene.camera.axes = basis_looking_along(Vec3(0, 0, -kSeedDistance) - scene.camera.position, {0.1, 1, 0});
-  scene.surfaces = {Plate{}, LatLong{}, Sphere{{0, 0, -kSeedDistance}, kSeedEarthRadius, basis_from_zxy({0.4, 1, 0})},
-                    Sphere{{2e6, 1e6, -0.45 * kSeedDistance}, 1.2e7, {}}};  // this one reaches through a plane
+  scene.surfaces = {
+      Plate{}, LatLong{}, Sphere{{0, 0, -kSeedDistance}, kSeedEarthRadius, basis_from_zxy({0.4, 1, 0})},
+      Sphere{{2e6, 1e6, -0.45 * kSeedDistance}, 1.2e7, {}}};  // this one reaches through a plane
   const Tracer tracer(scene, plan_trace(scene, Method::ShinotsukaMakino));
   TraceBatch batch = tracer.make_batch();
   const auto film = random_film(scene.camera, kBatchSize * 40);
@@ -174,7 +181,8 @@ TEST(Tracer, BatchesAgreeWithTheReferenceOnEverySurface) {
       const FilmPosition position{batch.x[i], batch.y[i]};
       const RayPath path = march(tracer.plan().planes, Vec3(0), direction_from_pixel(scene.camera, position));
       for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
-        const SurfaceHit expected = meet(camera_from_world(scene.camera, scene.surfaces[k]), scene.camera, position, path);
+        const SurfaceHit expected =
+            meet(camera_from_world(scene.camera, scene.surfaces[k]), scene.camera, position, path);
         const SurfaceBatch& ours = batch.surfaces[k];
         if (ours.outcome[static_cast<std::size_t>(i)] != expected.outcome) {
           ++disagreeing;  // at a silhouette rounding decides
@@ -198,7 +206,9 @@ TEST(Tracer, BodyBetweenPlanesIsBentByThePlanesInFrontOfItOnly) {
   without_third.lenses.pop_back();
   without_second.lenses.erase(without_second.lenses.begin() + 1);
   const auto film = random_film(scene.camera, 5000);
-  const auto trace = [&](const Scene& s) { return bits_of(Tracer(s, plan_trace(s, Method::ShinotsukaMakino)), film); };
+  const auto trace = [&](const Scene& s) {
+    return bits_of(Tracer(s, plan_trace(s, Method::ShinotsukaMakino)), film);
+  };
   expect_same_bits(trace(scene), trace(without_third));
   EXPECT_NE(trace(scene), trace(without_second));
 }
@@ -264,7 +274,8 @@ TEST(Tracer, NothingIsEverNotANumber) {
   for (const double length : {1e-3, 1.0, 1e9, 1e26, 1e150, 1e300}) {
     for (const double m : {1e-300, 1e-20, 1e-3, 1.0, 1e6, 1e15}) {
       Scene scene = seed_scene(101, Vec3(0), Vec3(0.01 * length, 0, 0), Vec3(0));
-      for (Lens& lens : scene.lenses) lens = {m * length, {lens.position.x, 0, lens.position.z / kSeedDistance * length}};
+      for (Lens& lens : scene.lenses)
+        lens = {m * length, {lens.position.x, 0, lens.position.z / kSeedDistance * length}};
       scene.surfaces = {Plate{}, LatLong{}, Sphere{{0, 0, -length}, 0.1 * length, {}}};
       for (const Method method : {Method::Kishi, Method::ShinotsukaMakino}) {
         const Tracer tracer(scene, plan_trace(scene, method));
@@ -298,7 +309,8 @@ TEST(Tracer, TurningCameraAndSceneTogetherChangesNothing) {
   const auto b = bits_of(Tracer(turned, plan_trace(turned, Method::ShinotsukaMakino)), film);
   ASSERT_EQ(a.size(), b.size());
   int different = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) different += std::abs(a[i] - b[i]) > 1e-5 * std::max(1.0, std::abs(a[i]));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    different += std::abs(a[i] - b[i]) > 1e-5 * std::max(1.0, std::abs(a[i]));
   EXPECT_LE(different, 9);  // rays at a silhouette
 }
 

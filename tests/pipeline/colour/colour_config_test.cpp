@@ -66,7 +66,8 @@ TEST(ColourConfig, EightAndSixteenBitFilesGiveWhatFloatGives) {
     const auto from8 = pixel<std::uint8_t>(SampleType::UInt8, {byte, byte, byte, 255}, false, true);
     const auto from16 = pixel<std::uint16_t>(SampleType::UInt16, {word, word, word, 65535}, false, true);
     for (const EncodedImage& image : {from8, from16}) {
-      const Rgba got = builtin().to_working(image, {"sRGB - Texture", std::nullopt, false}, "ACEScg").pixels[0];
+      const Rgba got =
+          builtin().to_working(image, {"sRGB - Texture", std::nullopt, false}, "ACEScg").pixels[0];
       for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(got[c], expected[c], 1e-6) << code;
     }
   }

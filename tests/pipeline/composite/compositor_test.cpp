@@ -123,7 +123,8 @@ TEST(Locator, ShowsTheLensesWhereTheyAreAndBendsNothing) {
   ASSERT_EQ(locator.scene.surfaces.size(), 4U);
   ASSERT_EQ(locator.looks.size(), 4U);
   EXPECT_EQ(std::get<Sphere>(locator.scene.surfaces[2]).centre, scene.lenses[1].position);
-  EXPECT_EQ(std::get<Sphere>(locator.scene.surfaces[1]).radius, std::get<Sphere>(locator.scene.surfaces[3]).radius);
+  EXPECT_EQ(std::get<Sphere>(locator.scene.surfaces[1]).radius,
+            std::get<Sphere>(locator.scene.surfaces[3]).radius);
 }
 
 }  // namespace

@@ -37,11 +37,14 @@ TEST(AtomicFile, WritesAndReplacesAndMakesFolders) {
 TEST(AtomicFile, RefusesPlacesWhereNothingCanBeWritten) {
   const TemporaryFolder folder;
   folder.write("file", "x");
-  const Refusal below_a_file = refusal_of([&] { write_atomically(folder / "file/below.txt", std::string("y")); });
+  const Refusal below_a_file =
+      refusal_of([&] { write_atomically(folder / "file/below.txt", std::string("y")); });
   EXPECT_EQ(below_a_file.code, ExitCode::BadOutput);
-  EXPECT_THAT(below_a_file.line, testing::HasSubstr((folder / "file/below.txt").string() + ": cannot be written: "));
+  EXPECT_THAT(below_a_file.line,
+              testing::HasSubstr((folder / "file/below.txt").string() + ": cannot be written: "));
   std::filesystem::create_directory(folder / "folder");
-  EXPECT_EQ(refusal_of([&] { write_atomically(folder / "folder", std::string("y")); }).code, ExitCode::BadOutput);
+  EXPECT_EQ(refusal_of([&] { write_atomically(folder / "folder", std::string("y")); }).code,
+            ExitCode::BadOutput);
   EXPECT_EQ(files_in(folder.path()), 2U);  // nothing half-written beside them
 }
 

@@ -20,7 +20,8 @@ ExrHeader example_header() {
   header.plan = "shinotsuka-makino: weak law, 3 sources on 3 planes";
   header.parameters = "ABCDEF";
   header.colour_interop = "lin_ap1_scene";
-  header.chromaticities = Chromaticities{{{.713F, .293F}, {.165F, .830F}, {.128F, .044F}, {.32168F, .33767F}}};
+  header.chromaticities =
+      Chromaticities{{{.713F, .293F}, {.165F, .830F}, {.128F, .044F}, {.32168F, .33767F}}};
   header.fps = {24000, 1001};
   header.camera_position = Vec3(10, 20, 30);
   return header;
@@ -67,7 +68,8 @@ TEST(ExrWriter, WorldToCameraTurnsTheWorldIntoCameraAxes) {
   const auto samples = ramp(1);
   ExrHeader header = example_header();
   header.camera_axes = basis_from_zxy({0.3, 0.7, -0.2});
-  write_exr(folder / "a.exr", {1, 1, 0}, {{"R", samples.data()}}, {PixelType::Float, ExrCompression::Zip}, header);
+  write_exr(folder / "a.exr", {1, 1, 0}, {{"R", samples.data()}}, {PixelType::Float, ExrCompression::Zip},
+            header);
   const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
   const auto* m = static_cast<const float*>(input->spec().find_attribute("worldToCamera")->data());
   const Vec3 point(1, -2, 5);
@@ -110,7 +112,8 @@ TEST(ExrWriter, AttributesComeBackFromWholeFilesOnly) {
   const TemporaryFolder folder;
   const auto samples = ramp(64 * 64);
   const auto path = folder / "a.exr";
-  write_exr(path, {64, 64, 0}, {{"R", samples.data()}}, {PixelType::Float, ExrCompression::Zip}, example_header());
+  write_exr(path, {64, 64, 0}, {{"R", samples.data()}}, {PixelType::Float, ExrCompression::Zip},
+            example_header());
   EXPECT_EQ(read_exr_attribute(path, "parameters"), "ABCDEF");
   EXPECT_EQ(read_exr_attribute(path, "amplification"), std::nullopt);
   EXPECT_EQ(read_exr_attribute(folder / "none.exr", "parameters"), std::nullopt);

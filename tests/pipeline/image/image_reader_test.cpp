@@ -65,13 +65,16 @@ TEST(ImageReader, ChannelsAreFoundByTheirNames) {
 
 TEST(ImageReader, RefusesWhatIsMissingOrBrokenByName) {
   const TemporaryFolder folder;
-  const auto line_and_code = [](const std::filesystem::path& path) { return refusal_of([&] { read_image(path); }); };
+  const auto line_and_code = [](const std::filesystem::path& path) {
+    return refusal_of([&] { read_image(path); });
+  };
   EXPECT_EQ(line_and_code(folder / "none.exr").line, (folder / "none.exr").string() + ": no such image");
   EXPECT_EQ(line_and_code(folder / "none.exr").code, ExitCode::BadInput);
   const Refusal text = line_and_code(folder.write("text.exr", "not an image"));
   EXPECT_EQ(text.code, ExitCode::BadInput);
   EXPECT_THAT(text.line, HasSubstr("text.exr: cannot be read as an image: "));
-  EXPECT_THAT(line_and_code(folder.write("odd.xyz", "?")).line, HasSubstr("odd.xyz: cannot be read as an image: "));
+  EXPECT_THAT(line_and_code(folder.write("odd.xyz", "?")).line,
+              HasSubstr("odd.xyz: cannot be read as an image: "));
 
   OIIO::ImageSpec spec(64, 64, 3, OIIO::TypeDesc::HALF);
   write<std::uint16_t>(folder / "cut.exr", spec, std::vector<std::uint16_t>(64 * 64 * 3, 0x3c01));

@@ -24,7 +24,8 @@ TEST(FrameRange, ReadsEveryForm) {
 TEST(FrameRange, SaysWhatIsWrong) {
   EXPECT_EQ(parse_frames("1048-1001").error, "\"1048-1001\" ends before it starts; write 1001-1048");
   EXPECT_THAT(parse_frames("1-9x0").error, HasSubstr("steps by 0"));
-  for (const char* text : {"", ",", "1,", "a", "1-", "-3", "1-3x", "1-3y2", "1.5", "1 2 x", "99999999999", "0x10"}) {
+  for (const char* text :
+       {"", ",", "1,", "a", "1-", "-3", "1-3x", "1-3y2", "1.5", "1 2 x", "99999999999", "0x10"}) {
     EXPECT_NE(parse_frames(text).error, "") << text;
   }
   EXPECT_THAT(parse_frames("1-9999999").error, HasSubstr("more than 1000000 frames"));

@@ -36,7 +36,8 @@ TEST(Keyed, StepHoldsUntilTheNextKey) {
 
 TEST(Keyed, SmoothMeetsEveryKeyAndNeverOvershoots) {
   const Keyed<double> keyed{{0, 1, 2, 5, 6}, {0, 0, 1, 1.1, -3}, Interpolation::Smooth};
-  for (std::size_t k = 0; k < keyed.frames.size(); ++k) EXPECT_EQ(value_at(keyed, keyed.frames[k]), keyed.values[k]);
+  for (std::size_t k = 0; k < keyed.frames.size(); ++k)
+    EXPECT_EQ(value_at(keyed, keyed.frames[k]), keyed.values[k]);
   for (std::size_t k = 0; k + 1 < keyed.frames.size(); ++k) {
     const double low = std::min(keyed.values[k], keyed.values[k + 1]);
     const double high = std::max(keyed.values[k], keyed.values[k + 1]);
@@ -65,7 +66,8 @@ TEST(Keyed, SmoothHasNoCorners) {
 }
 
 TEST(Keyed, SmoothReproducesAParabolaToTheOrderOfTheMethod) {
-  // Harmonic-mean slopes are of second order on equal steps: the error falls by at least four when steps are halved.
+  // Harmonic-mean slopes are of second order on equal steps: the error falls by at least four when steps are
+  // halved.
   const auto error_with = [](int steps) {
     Keyed<double> keyed{{}, {}, Interpolation::Smooth};
     keyed.frames.clear();

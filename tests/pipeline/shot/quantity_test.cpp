@@ -36,7 +36,8 @@ TEST(Quantity, UnitsHaveTheirValues) {
   EXPECT_DOUBLE_EQ(value("3600 arcsec", Dimension::Angle), kPi / 180);
   EXPECT_DOUBLE_EQ(value("1 rad", Dimension::Angle), 1);
   EXPECT_DOUBLE_EQ(value("0.05 px", Dimension::Pixels), 0.05);
-  EXPECT_NEAR(value("1 Msun", Dimension::Mass), 1476.625, 1e-3);  // half the Sun's Schwarzschild radius, 2953.25 m
+  EXPECT_NEAR(value("1 Msun", Dimension::Mass), 1476.625,
+              1e-3);  // half the Sun's Schwarzschild radius, 2953.25 m
   EXPECT_NEAR(value("1.989e31 kg", Dimension::Mass), 14770.63277528, 1e-8);
   EXPECT_DOUBLE_EQ(value("1000 g", Dimension::Mass), value("1 kg", Dimension::Mass));
   EXPECT_NEAR(value("1 Mearth", Dimension::Mass) / 4.4350280e-3, 1, 1e-6);
@@ -55,7 +56,8 @@ TEST(Quantity, SaysWhatIsWrongAndWhatIsAllowed) {
   EXPECT_EQ(error("3 m", Dimension::Angle),
             "\"3 m\" is a length; an angle is needed, in deg, rad, arcmin, arcsec, mas");
   EXPECT_EQ(error("3", Dimension::Mass), "\"3\" has no unit; a mass is needed, in g, kg, Msun, Mearth, Mjup");
-  EXPECT_THAT(error("3 parsecs", Dimension::Length), HasSubstr("\"parsecs\" is not a unit; a length is needed, in mm"));
+  EXPECT_THAT(error("3 parsecs", Dimension::Length),
+              HasSubstr("\"parsecs\" is not a unit; a length is needed, in mm"));
   EXPECT_THAT(error("three m", Dimension::Length), HasSubstr("\"three m\" is not a number"));
   EXPECT_THAT(error("", Dimension::Length), HasSubstr("is not a number"));
   EXPECT_THAT(error("+-3 m", Dimension::Length), HasSubstr("m\" is not a"));
@@ -67,10 +69,10 @@ TEST(Quantity, RefusesWhatIsNoOrdinaryNumber) {
     EXPECT_NE(error(text, Dimension::Length), "") << text;
   }
   EXPECT_THAT(error("nan m", Dimension::Length), HasSubstr("is not finite"));
-  EXPECT_NE(error("1e-310 m", Dimension::Length), "");   // denormal
-  EXPECT_NE(error("1e-320 m", Dimension::Length), "");   // denormal
-  EXPECT_NE(error("1e-400 m", Dimension::Length), "");   // out of range
-  EXPECT_NE(error("1e-300 g", Dimension::Mass), "");     // denormal once it is in metres
+  EXPECT_NE(error("1e-310 m", Dimension::Length), "");  // denormal
+  EXPECT_NE(error("1e-320 m", Dimension::Length), "");  // denormal
+  EXPECT_NE(error("1e-400 m", Dimension::Length), "");  // out of range
+  EXPECT_NE(error("1e-300 g", Dimension::Mass), "");    // denormal once it is in metres
 }
 
 }  // namespace

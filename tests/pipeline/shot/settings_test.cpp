@@ -10,7 +10,8 @@ namespace lensplane {
 namespace {
 
 YamlNode example() {
-  return parse_yaml("camera: {fov: 3 deg}\nlenses:\n  - {name: near, mass: 1 kg}\n  - {name: far, mass: 2 kg}\n", "s");
+  return parse_yaml(
+      "camera: {fov: 3 deg}\nlenses:\n  - {name: near, mass: 1 kg}\n  - {name: far, mass: 2 kg}\n", "s");
 }
 
 TEST(Settings, ReplaceValuesByKeyNameAndNumber) {
@@ -33,9 +34,11 @@ TEST(Settings, SayWhatIsWrong) {
     YamlNode root = example();
     return refusal_of([&] { apply_setting(setting, root); }).line;
   };
-  EXPECT_EQ(line("camera.fov"), "--set \"camera.fov\": no value; write key.path=value, like camera.fov=2 deg");
-  EXPECT_EQ(line("lenses.middle.mass=1 kg"),
-            "--set \"lenses.middle.mass=1 kg\": \"middle\" is neither a name in this list nor a number in it");
+  EXPECT_EQ(line("camera.fov"),
+            "--set \"camera.fov\": no value; write key.path=value, like camera.fov=2 deg");
+  EXPECT_EQ(
+      line("lenses.middle.mass=1 kg"),
+      "--set \"lenses.middle.mass=1 kg\": \"middle\" is neither a name in this list nor a number in it");
   EXPECT_NE(line("=3"), "");
   EXPECT_NE(line("a..b=3"), "");
   EXPECT_NE(line("camera.fov=[1, 2"), "");

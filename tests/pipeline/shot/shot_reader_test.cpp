@@ -50,13 +50,12 @@ TEST(ShotReader, ReadsTheExample) {
 }
 
 TEST(ShotReader, ReadsWhatTheExampleLeavesOut) {
-  const Shot shot = example_shot({"fps=23.976", "camera.overscan=8", "output.maps=[background]",
-                                  "output.image={type: float, compression: piz}", "output.review=none",
-                                  "output.locator=beside", "layers.background.edge=mirror",
-                                  "layers.earth.image={file: e.png, space: Raw, alpha: straight}",
-                                  "camera.shutter={open: -0.25, close: 0.25, samples: 1}", "trace.law=auto",
-                                  "trace.tolerance=0.05 px", "trace.effects={finite_distance: auto}",
-                                  "layers.background.distance=infinity", "colour.view=Raw"});
+  const Shot shot = example_shot(
+      {"fps=23.976", "camera.overscan=8", "output.maps=[background]",
+       "output.image={type: float, compression: piz}", "output.review=none", "output.locator=beside",
+       "layers.background.edge=mirror", "layers.earth.image={file: e.png, space: Raw, alpha: straight}",
+       "camera.shutter={open: -0.25, close: 0.25, samples: 1}", "trace.law=auto", "trace.tolerance=0.05 px",
+       "trace.effects={finite_distance: auto}", "layers.background.distance=infinity", "colour.view=Raw"});
   EXPECT_EQ(shot.fps.numerator, 24000);
   EXPECT_EQ(shot.fps.denominator, 1001);
   EXPECT_EQ(shot.camera.overscan, 8);
@@ -83,43 +82,52 @@ TEST(ShotReader, FrameRatesAreRatios) {
 }
 
 TEST(ShotReader, KeysOfEveryKindAreRead) {
-  const Shot shot = example_shot({
-      "lenses.near.position={keys: {1001: [-8000 km, 0 km, -4e8 m], 1003: [8000 km, 0 km, -4e8 m]}, interpolate: smooth}",
-      "lenses.near.mass={keys: {1001: 0 kg, 1003: 2 kg}}",
-      "camera.fov={keys: {1001: 1 deg, 1002: 3 deg}, interpolate: step}",
-      "layers.earth.light={keys: {1001: [1, 0, 0], 1003: [0, 0, 2]}}"});
+  const Shot shot =
+      example_shot({"lenses.near.position={keys: {1001: [-8000 km, 0 km, -4e8 m], 1003: [8000 km, 0 km, -4e8 "
+                    "m]}, interpolate: smooth}",
+                    "lenses.near.mass={keys: {1001: 0 kg, 1003: 2 kg}}",
+                    "camera.fov={keys: {1001: 1 deg, 1002: 3 deg}, interpolate: step}",
+                    "layers.earth.light={keys: {1001: [1, 0, 0], 1003: [0, 0, 2]}}"});
   EXPECT_EQ(value_at(shot.lenses[0].position, 1002), Vec3(0, 0, -4e8));
   EXPECT_EQ(value_at(*std::get<SphereLayer>(shot.layers[0].kind).light, 1003), Vec3(0, 0, 1));
 }
 
 TEST(ShotReader, RefusesWithPlaceKeyReasonAndWhatIsAllowed) {
-  EXPECT_EQ(line_for("fov: 3 deg", "fov: 3 m"),
-            "s.yaml:7:8: camera.fov: \"3 m\" is a length; an angle is needed, in deg, rad, arcmin, arcsec, mas");
-  EXPECT_EQ(line_for("fov: 3 deg", "fv: 3 deg"),
-            "s.yaml:7:3: camera.fv: unknown key; allowed: projection, resolution, fov, focal_length, film_width, "
-            "position, look_at, rotation, up, overscan, shutter, from");
-  EXPECT_EQ(line_for("  fov: 3 deg\n", ""),
-            "s.yaml:6:3: camera.fov: missing; needed: the full horizontal angle, like 3 deg (or focal_length and "
-            "film_width)");
-  EXPECT_EQ(line_for("fov: 3 deg", "fov: 3 deg\n  fov: 4 deg"), "s.yaml:8:3: fov: this key stands here twice");
+  EXPECT_EQ(
+      line_for("fov: 3 deg", "fov: 3 m"),
+      "s.yaml:7:8: camera.fov: \"3 m\" is a length; an angle is needed, in deg, rad, arcmin, arcsec, mas");
+  EXPECT_EQ(
+      line_for("fov: 3 deg", "fv: 3 deg"),
+      "s.yaml:7:3: camera.fv: unknown key; allowed: projection, resolution, fov, focal_length, film_width, "
+      "position, look_at, rotation, up, overscan, shutter, from");
+  EXPECT_EQ(
+      line_for("  fov: 3 deg\n", ""),
+      "s.yaml:6:3: camera.fov: missing; needed: the full horizontal angle, like 3 deg (or focal_length and "
+      "film_width)");
+  EXPECT_EQ(line_for("fov: 3 deg", "fov: 3 deg\n  fov: 4 deg"),
+            "s.yaml:8:3: fov: this key stands here twice");
   EXPECT_EQ(line_for("mass: 1.989e31 kg", "mass: -1 kg"),
             "s.yaml:10:11: lenses.near.mass: \"-1 kg\" is negative; allowed: 0 or more");
   EXPECT_EQ(line_for("mass: 1.989e31 kg", "mass: nan kg"),
-            "s.yaml:10:11: lenses.near.mass: \"nan kg\" is not finite; a mass is needed, in g, kg, Msun, Mearth, Mjup");
+            "s.yaml:10:11: lenses.near.mass: \"nan kg\" is not finite; a mass is needed, in g, kg, Msun, "
+            "Mearth, Mjup");
   EXPECT_EQ(line_for("[40, 20]", "[0, 20]"),
             "s.yaml:6:16: camera.resolution.0: \"0\"; allowed: a whole number from 1 to 65536");
   EXPECT_EQ(line_for("1001-1003", "1003-1001"),
             "s.yaml:3:9: frames: \"1003-1001\" ends before it starts; write 1001-1003");
   EXPECT_EQ(line_for("type: plate", "type: plane"),
-            "s.yaml:19:11: layers.background.type: \"plane\"; allowed: plate, latlong, sphere, ring, stars, povray");
+            "s.yaml:19:11: layers.background.type: \"plane\"; allowed: plate, latlong, sphere, ring, stars, "
+            "povray");
   EXPECT_EQ(line_for("lensplane: 1", "lensplane: 2"),
             "s.yaml:1:12: lensplane: \"2\" is a version this program does not read; allowed: 1");
-  EXPECT_EQ(line_for("shot: example", "shot: a/b"),
-            "s.yaml:2:7: shot: \"a/b\" cannot be part of a file name; allowed: up to 100 letters, digits, _ and -");
+  EXPECT_EQ(
+      line_for("shot: example", "shot: a/b"),
+      "s.yaml:2:7: shot: \"a/b\" cannot be part of a file name; allowed: up to 100 letters, digits, _ and -");
   EXPECT_EQ(line_for("name: background", "name: near"),
             "s.yaml:18:11: layers.near.name: \"near\" is already the name of a lens or layer");
-  EXPECT_EQ(line_for("[0 m, 0 m, -4.36e8 m]", "[0 m, 0 m]"),
-            "s.yaml:11:15: lenses.near.position: needed: a list of three, [x, y, z], each a length, like 1 mm");
+  EXPECT_EQ(
+      line_for("[0 m, 0 m, -4.36e8 m]", "[0 m, 0 m]"),
+      "s.yaml:11:15: lenses.near.position: needed: a list of three, [x, y, z], each a length, like 1 mm");
 }
 
 TEST(ShotReader, RefusesEveryOtherMistake) {
@@ -193,8 +201,10 @@ TEST(ShotReader, SaysWhatIsNotAvailableYet) {
       {"camera.shutter={open: -0.25, close: 0.25, samples: 8}", "camera.shutter.samples: not available yet"},
       {"camera.from=track.chan", "camera.from: not available yet"},
       {"layers.background.distance=2e9 m", "layers.background.distance: not available yet"},
-      {"layers.background={name: s, type: stars, catalogue: c.csv, exposure: 0.5}", "layers.s.type: not available yet: stars"},
-      {"layers.background={name: r, type: ring, centre: earth, normal: [0, 1, 0.3], inner: 9000 km, outer: 14000 km, "
+      {"layers.background={name: s, type: stars, catalogue: c.csv, exposure: 0.5}",
+       "layers.s.type: not available yet: stars"},
+      {"layers.background={name: r, type: ring, centre: earth, normal: [0, 1, 0.3], inner: 9000 km, outer: "
+       "14000 km, "
        "image: r.png}",
        "layers.r.type: not available yet: ring"},
       {"layers.background={name: p, type: povray, scene: a.pov, as: plate, distance: 2e9 m}",
@@ -212,21 +222,26 @@ TEST(ShotReader, SaysWhatIsNotAvailableYet) {
     EXPECT_THAT(refusal.line, HasSubstr(expected)) << setting;
     EXPECT_EQ(refusal.code, ExitCode::BadShot);
   }
-  EXPECT_THAT(line_for("  method: shinotsuka-makino", "  method: planes"), HasSubstr("s.yaml:22:11: trace.method: not"));
+  EXPECT_THAT(line_for("  method: shinotsuka-makino", "  method: planes"),
+              HasSubstr("s.yaml:22:11: trace.method: not"));
 }
 
 TEST(ShotReader, WhatIsNotAvailableYetIsStillChecked) {
-  EXPECT_THAT(line_for_setting("layers.background={name: r, type: ring, centre: earth, normal: [0, 1, 0], inner: 9 km, "
-                               "outer: 8 km, image: r.png}"),
+  EXPECT_THAT(line_for_setting(
+                  "layers.background={name: r, type: ring, centre: earth, normal: [0, 1, 0], inner: 9 km, "
+                  "outer: 8 km, image: r.png}"),
               HasSubstr("layers.r.outer: has to be larger than inner"));
-  EXPECT_THAT(line_for_setting("layers.background={name: r, type: ring, centre: mars, normal: [0, 1, 0], inner: 9 km, "
-                               "outer: 10 km, image: r.png}"),
+  EXPECT_THAT(line_for_setting(
+                  "layers.background={name: r, type: ring, centre: mars, normal: [0, 1, 0], inner: 9 km, "
+                  "outer: 10 km, image: r.png}"),
               HasSubstr("no layer of this shot"));
-  EXPECT_THAT(line_for_setting("layers.background={name: s, type: stars, catalogue: c.csv, exposure: bright}"),
-              HasSubstr("not a number"));
+  EXPECT_THAT(
+      line_for_setting("layers.background={name: s, type: stars, catalogue: c.csv, exposure: bright}"),
+      HasSubstr("not a number"));
   EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, scene: a.pov, as: card}"),
               HasSubstr("allowed: plate, latlong"));
-  EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, as: plate}"), HasSubstr("scene: missing"));
+  EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, as: plate}"),
+              HasSubstr("scene: missing"));
   // A mistake comes before what is not available.
   const Refusal refusal = refusal_of([&] { example_shot({"trace.method=planes", "output.review=jpeg"}); });
   EXPECT_THAT(refusal.line, HasSubstr("allowed: none, png"));
@@ -235,7 +250,8 @@ TEST(ShotReader, WhatIsNotAvailableYetIsStillChecked) {
 TEST(ShotReader, PathsAreRelativeToTheShotFile) {
   const TemporaryFolder folder;
   const auto path = folder.write("example.yaml", kExampleShot);
-  const Shot shot = read_shot(path, {"output.directory=../out", "layers.earth.image=lensplane:textures/earth_day.jpg"});
+  const Shot shot =
+      read_shot(path, {"output.directory=../out", "layers.earth.image=lensplane:textures/earth_day.jpg"});
   EXPECT_EQ(shot.output.directory, (folder.path().parent_path() / "out"));
   EXPECT_EQ(shot.layers[0].image.pattern, "lensplane:textures/earth_day.jpg");
   EXPECT_EQ(shot.layers[1].image.pattern, (folder / "bg.####.exr").string());

@@ -32,7 +32,8 @@ TEST(ShotScene, FocalLengthAndFilmWidthMakeTheFieldOfView) {
 
 TEST(ShotScene, CameraLooksAtPointsLensesAndLayers) {
   const auto forward = [](const std::string& target) {
-    return -scene_at(example_shot({"camera.position=[0 m, 3e8 m, 0 m]", "camera.look_at=" + target}), 1001).camera.axes.z;
+    return -scene_at(example_shot({"camera.position=[0 m, 3e8 m, 0 m]", "camera.look_at=" + target}), 1001)
+                .camera.axes.z;
   };
   const Vec3 to_lens = Vec3(0, -3e8, -4.36e8).normalized();
   const Vec3 to_earth = Vec3(0, -3e8, -1.09e9).normalized();
@@ -46,7 +47,8 @@ TEST(ShotScene, CameraThatLooksNowhereIsRefusedWithItsPlace) {
     const Shot shot = example_shot({std::string("camera.look_at=") + target});
     const Refusal refusal = refusal_of([&] { scene_at(shot, 1002); });
     EXPECT_EQ(refusal.line,
-              "--set camera.look_at:1:1: camera.look_at: at frame 1002 the camera looks at its own position or straight "
+              "--set camera.look_at:1:1: camera.look_at: at frame 1002 the camera looks at its own position "
+              "or straight "
               "along up");
   }
 }

@@ -53,7 +53,8 @@ TEST(YamlTree, RefusesWhatNoShotIs) {
   EXPECT_THAT(line_for("[1, 2]: 3\n"), HasSubstr("a key has to be plain text"));
   EXPECT_THAT(line_for("a: !!python/object 3\n"), HasSubstr("tag"));
   EXPECT_THAT(line_for("a: *nothing\n"), StartsWith("shot.yaml:1:"));
-  EXPECT_EQ(line_for(std::string("a: 1\nb: \0 2\n", 11)), "shot.yaml:2:4: byte 0x00: a shot is plain UTF-8 text");
+  EXPECT_EQ(line_for(std::string("a: 1\nb: \0 2\n", 11)),
+            "shot.yaml:2:4: byte 0x00: a shot is plain UTF-8 text");
   EXPECT_EQ(line_for("a: \xff\xfe\n"), "shot.yaml:1:4: byte 0xff: a shot is plain UTF-8 text");
   EXPECT_EQ(line_for("a: caf\xc3\xa9\n"), "");
 }
