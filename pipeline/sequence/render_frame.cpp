@@ -32,9 +32,14 @@ ExrWindow window_of(const Camera& camera) {
   return {camera.width, camera.height, camera.overscan};
 }
 
+/// The rate determines no pixel, but the header says it.
+Fingerprint fingerprint_of_map(const Shot& shot, const FrameSetup& setup) {
+  return fingerprint_of_trace(setup.scene, setup.plan).add(shot.fps.numerator).add(shot.fps.denominator);
+}
+
 std::string fingerprint_of_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures,
                                    int frame, const FrameSetup& setup) {
-  Fingerprint print = fingerprint_of_trace(setup.scene, setup.plan);
+  Fingerprint print = fingerprint_of_map(shot, setup);
   print.add(colours.cache_id()).add(shot.colour.working.text);
   print.add(static_cast<double>(shot.output.image.type))
       .add(static_cast<double>(shot.output.image.compression));
@@ -65,7 +70,7 @@ FrameSetup prepare(const Shot& shot, const ColourConfig& colours, TextureStore& 
   header.chromaticities = colours.chromaticities(shot.colour.working.text);
   setup.map_header = header;
   setup.map_header.colour_interop = "data";
-  setup.map_header.parameters = fingerprint_of_trace(setup.scene, setup.plan).digest();
+  setup.map_header.parameters = fingerprint_of_map(shot, setup).digest();
   if (setup.picture_wanted) {
     setup.picture_header = header;
     setup.picture_header.colour_interop = colours.interop_id(shot.colour.working.text);
