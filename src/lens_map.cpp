@@ -22,7 +22,7 @@ void store(const SurfaceBatch& surface, std::size_t first, int count, LensMap& m
 /// Fills row `row` of every map.
 void trace_row(const Tracer& tracer, int row, TraceBatch& batch, std::vector<LensMap>& maps) {
   const int overscan = tracer.camera().overscan;
-  const int width = tracer.camera().width + 2 * overscan;
+  const int width = tracer.camera().full_width();
   for (int column = 0; column < width; column += kBatchSize) {
     const int count = std::min(kBatchSize, width - column);
     for (int i = 0; i < kBatchSize;
@@ -40,12 +40,11 @@ void trace_row(const Tracer& tracer, int row, TraceBatch& batch, std::vector<Len
 }  // namespace
 
 std::vector<LensMap> trace_maps(const Tracer& tracer) {
-  const Camera& camera = tracer.camera();
-  const int width = camera.width + 2 * camera.overscan;
-  const int height = camera.height + 2 * camera.overscan;
+  const int width = tracer.camera().full_width();
+  const int height = tracer.camera().full_height();
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const std::vector<float> blank(pixels, 0.0F);
-  std::vector<LensMap> maps(tracer.make_batch().surfaces.size(), LensMap{width, height, blank, blank, blank});
+  std::vector<LensMap> maps(tracer.surfaces().size(), LensMap{width, height, blank, blank, blank});
   tbb::parallel_for(tbb::blocked_range<int>(0, height), [&](const tbb::blocked_range<int>& rows) {
     TraceBatch batch = tracer.make_batch();
     for (int row = rows.begin(); row != rows.end(); ++row) trace_row(tracer, row, batch, maps);

@@ -2,29 +2,23 @@
 //
 // Many rays at once through the lens planes: the fast path of march.h.
 //
-// Rays lie in arrays of a fixed size, so that each step is a plain loop without branches which the compiler
-// turns into vector instructions, for several instruction sets in one binary. Only additions,
-// multiplications, divisions and square roots are used, none of them contracted: every instruction set gives
-// the same bits, and a ray's result does not depend on its neighbours. A ray for which the loops would not do
-// (a bend beyond kBatchAlpha, a source met exactly, a turn away from the screen) is marked irregular; its
-// numbers mean nothing and march() has to trace it.
+// The steps are those of march.h, each for a whole batch. A ray for which the loops would not do (a bend
+// beyond kBatchAlpha, a source met exactly, a turn away from the screen) is marked irregular; its numbers
+// mean nothing and march() has to trace it.
 
 #pragma once
 
+#include "src/batch.h"
 #include "src/lens_planes.h"
 #include "src/projection.h"
 
 namespace lensplane {
-
-inline constexpr int kBatchSize = 256;
 
 /// Largest single bend, in radians, that the batches do themselves.
 inline constexpr double kBatchAlpha = 0.5;
 
 /// Batches and march() agree on the direction, per bend, to this angle in radians.
 inline constexpr double kBatchError = 1e-15;
-
-using BatchArray = double[kBatchSize];
 
 /// The present straight stretch of each ray, in camera axes and metres.
 struct RayBatch {
@@ -44,15 +38,5 @@ void advance_rays(double z, RayBatch& rays);
 
 /// Bends every ray by a source on the plane where the rays are.
 void bend_rays(const Source& source, RayBatch& rays);
-
-/// For each ray the distance from its start at which it enters the ball, infinite when it does not before the
-/// plane z = `end_z` (which may be -infinity).
-void enter_sphere(const Vec3& centre, double radius, double end_z, const RayBatch& rays, BatchArray& entry);
-
-/// For each ray that left the camera through (x[i], y[i]) the (s, t) of the plate at infinity in its present
-/// direction; `in_front` is 1, or 0 where no position on the plate corresponds to the direction and s, t mean
-/// nothing.
-void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, const RayBatch& rays,
-                BatchArray& s, BatchArray& t, BatchArray& in_front);
 
 }  // namespace lensplane

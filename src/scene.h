@@ -22,6 +22,9 @@ struct Camera {
   double fov_rad = 0;  // full horizontal angle across `width`, in (0, pi)
   Vec3 position{0};    // metres
   Basis axes;          // world from camera: looks along -z, +x to the right, +y up
+
+  int full_width() const { return width + 2 * overscan; }    // overscan included
+  int full_height() const { return height + 2 * overscan; }  // overscan included
 };
 
 /// A point mass.

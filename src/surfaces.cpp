@@ -50,17 +50,6 @@ double sphere_entry(const Vec3& start, const Vec3& direction, const Vec3& centre
   return near >= -kSurfaceTolerance * radius ? near : kInfinity;
 }
 
-TextureCoordinates st_from_sky_direction(const Vec3& d) {
-  return {0.5 + std::atan2(d.x, -d.z) / (2.0 * kPi), 0.5 + std::atan2(d.y, std::hypot(d.x, d.z)) / kPi};
-}
-
-Vec3 sky_direction_from_st(TextureCoordinates st) {
-  const double longitude = (st.s - 0.5) * 2.0 * kPi;
-  const double latitude = (st.t - 0.5) * kPi;
-  return {std::sin(longitude) * std::cos(latitude), std::sin(latitude),
-          -std::cos(longitude) * std::cos(latitude)};
-}
-
 TextureCoordinates st_from_sphere_normal(const Vec3& n) {
   return {0.5 + std::atan2(n.x, n.z) / (2.0 * kPi), 0.5 + std::atan2(n.y, std::hypot(n.x, n.z)) / kPi};
 }
@@ -70,6 +59,16 @@ Vec3 sphere_normal_from_st(TextureCoordinates st) {
   const double latitude = (st.t - 0.5) * kPi;
   return {std::sin(longitude) * std::cos(latitude), std::sin(latitude),
           std::cos(longitude) * std::cos(latitude)};
+}
+
+// The sky is a sphere seen from inside: its longitude 0 lies along -z, and east is to the right there, too.
+TextureCoordinates st_from_sky_direction(const Vec3& d) {
+  return st_from_sphere_normal({d.x, d.y, -d.z});
+}
+
+Vec3 sky_direction_from_st(TextureCoordinates st) {
+  const Vec3 normal = sphere_normal_from_st(st);
+  return {normal.x, normal.y, -normal.z};
 }
 
 SurfaceHit meet(const Surface& surface, const Camera& camera, FilmPosition film, const RayPath& path) {

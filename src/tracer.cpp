@@ -3,8 +3,11 @@
 #include "src/tracer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <utility>
+
+#include "src/constants.h"
 
 namespace lensplane {
 namespace {
@@ -30,7 +33,7 @@ Vec3 point_on_ray(const RayBatch& rays, int i, double distance) {
           rays.start_z + rays.dir_z[i] * distance};
 }
 
-void meet_sphere(const Sphere& sphere, const RayBatch& rays, double end_z, SurfaceBatch& surface) {
+void see_sphere(const Sphere& sphere, const RayBatch& rays, double end_z, SurfaceBatch& surface) {
   const bool beyond = sphere.centre.z + sphere.radius < end_z;
   const bool passed = sphere.centre.z - sphere.radius > rays.start_z;
   if (beyond || passed) return;
@@ -45,7 +48,7 @@ void meet_sphere(const Sphere& sphere, const RayBatch& rays, double end_z, Surfa
   }
 }
 
-void meet_sky(const Camera& camera, const RayBatch& rays, SurfaceBatch& surface) {
+void see_sky(const Camera& camera, const RayBatch& rays, SurfaceBatch& surface) {
   for (int i = 0; i < kBatchSize; ++i) {
     const Vec3 direction(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]);
     set(surface, i,
@@ -53,7 +56,7 @@ void meet_sky(const Camera& camera, const RayBatch& rays, SurfaceBatch& surface)
   }
 }
 
-void meet_plate(const Camera& camera, const RayBatch& rays, const TraceBatch& batch, SurfaceBatch& surface) {
+void see_plate(const Camera& camera, const RayBatch& rays, const TraceBatch& batch, SurfaceBatch& surface) {
   alignas(64) BatchArray in_front;
   meet_plate(camera, batch.x, batch.y, rays, surface.s, surface.t, in_front);
   for (int i = 0; i < kBatchSize; ++i) {
@@ -66,6 +69,8 @@ void meet_plate(const Camera& camera, const RayBatch& rays, const TraceBatch& ba
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, Plan plan) : camera_(scene.camera), plan_(std::move(plan)) {
+  assert(camera_.width > 0 && camera_.height > 0 && camera_.overscan >= 0);
+  assert(camera_.fov_rad > 0 && camera_.fov_rad < kPi);
   for (const Surface& surface : scene.surfaces) surfaces_.push_back(camera_from_world(camera_, surface));
 }
 
@@ -76,6 +81,7 @@ TraceBatch Tracer::make_batch() const {
 }
 
 void Tracer::trace(TraceBatch& batch) const {
+  assert(batch.surfaces.size() == surfaces_.size());
   std::for_each(batch.surfaces.begin(), batch.surfaces.end(), clear);
   RayBatch rays;
   start_rays(camera_, batch.x, batch.y, rays);
@@ -95,14 +101,14 @@ void Tracer::trace(TraceBatch& batch) const {
 void Tracer::meet_spheres(const RayBatch& rays, double end_z, TraceBatch& batch) const {
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     const auto* sphere = std::get_if<Sphere>(&surfaces_[k]);
-    if (sphere) meet_sphere(*sphere, rays, end_z, batch.surfaces[k]);
+    if (sphere) see_sphere(*sphere, rays, end_z, batch.surfaces[k]);
   }
 }
 
 void Tracer::meet_infinity(const RayBatch& rays, TraceBatch& batch) const {
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    if (std::holds_alternative<Plate>(surfaces_[k])) meet_plate(camera_, rays, batch, batch.surfaces[k]);
-    if (std::holds_alternative<LatLong>(surfaces_[k])) meet_sky(camera_, rays, batch.surfaces[k]);
+    if (std::holds_alternative<Plate>(surfaces_[k])) see_plate(camera_, rays, batch, batch.surfaces[k]);
+    if (std::holds_alternative<LatLong>(surfaces_[k])) see_sky(camera_, rays, batch.surfaces[k]);
   }
 }
 

@@ -10,9 +10,8 @@
 #include <array>
 #include <vector>
 
-#include "src/march_batch.h"
 #include "src/plan.h"
-#include "src/surfaces.h"
+#include "src/surfaces_batch.h"
 
 namespace lensplane {
 
@@ -40,6 +39,7 @@ class Tracer {
 
   const Camera& camera() const { return camera_; }
   const Plan& plan() const { return plan_; }
+  const std::vector<Surface>& surfaces() const { return surfaces_; }  // in camera axes
 
  private:
   void meet_spheres(const RayBatch& rays, double end_z, TraceBatch& batch) const;
@@ -48,7 +48,7 @@ class Tracer {
 
   Camera camera_;
   Plan plan_;
-  std::vector<Surface> surfaces_;  // in camera axes
+  std::vector<Surface> surfaces_;
 };
 
 }  // namespace lensplane

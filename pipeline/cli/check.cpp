@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "pipeline/sequence/texture_store.h"
+#include "pipeline/sequence/shot_colours.h"
 #include "pipeline/shot/shot_scene.h"
 
 namespace lensplane {
@@ -23,8 +23,10 @@ void run_check(const Options& options) {
   check_colours(
       shot, ColourConfig::load(shot.colour.config ? std::optional(shot.colour.config->text) : std::nullopt,
                                std::getenv("OCIO")));
-  for (const int frame : shot.frames) scene_at(shot, frame);
-  fmt::print("{}: right: {} of {} x {}, {}, {}\n", shot.file, counted(shot.frames.size(), "frame", "frames"),
+  const std::vector<int> frames = frames_of(options, shot);
+  for (const int frame : frames) scene_at(shot, frame);
+  if (options.quiet) return;
+  fmt::print("{}: right: {} of {} x {}, {}, {}\n", shot.file, counted(frames.size(), "frame", "frames"),
              shot.camera.width, shot.camera.height, counted(shot.lenses.size(), "lens", "lenses"),
              counted(shot.layers.size(), "layer", "layers"));
 }

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <exception>
 #include <new>
@@ -18,11 +18,12 @@
 namespace {
 
 // A signal handler can reach nothing else. The only global variable of the project.
-volatile std::sig_atomic_t interrupt_requested = 0;
+std::atomic<bool> interrupt_requested = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "or a signal handler must not touch it");
 
 /// The first signal lets the frames in the making finish; the second ends the program at once.
 extern "C" void request_interrupt(int signal) {
-  interrupt_requested = 1;
+  interrupt_requested = true;
   std::signal(signal, SIG_DFL);
 }
 
@@ -36,17 +37,14 @@ void run(const lensplane::Options& options) {
   }
 }
 
-int fail(lensplane::ExitCode code, std::string line) {
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  fmt::print(stderr, "{}\n", line);
+int fail(lensplane::ExitCode code, const std::string& line) {
+  fmt::print(stderr, "{}\n", lensplane::one_line(line));
   return static_cast<int>(code);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, request_interrupt);
-  std::signal(SIGTERM, request_interrupt);
   try {
     const lensplane::ParsedCommandLine command_line = lensplane::parse_command_line(argc, argv);
     if (command_line.text) {

@@ -3,7 +3,6 @@
 #include "pipeline/cli/options.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
 #include "pipeline/image/failure.h"
 #include "pipeline/image/version.h"
@@ -33,23 +32,18 @@ void add_common(CLI::App& command, Options& options) {
   command
       .add_option("--set", options.settings, "put a value over the shot's: key.path=value; may be repeated")
       ->allow_extra_args(false);
+  command.add_option("-f,--frames", options.frames, "the frames: 1001, 1001-1048, 1001-1100x2, with commas");
+  command.add_option("--proxy", options.proxy, "1/N of the resolution, in a folder proxyN of its own")
+      ->check(CLI::Range(1, kMaxProxy));
+  command.add_flag("--quiet", options.quiet, "say nothing but errors");
 }
 
 void add_rendering(CLI::App& command, Options& options) {
-  command.add_option("-f,--frames", options.frames, "the frames: 1001, 1001-1048, 1001-1100x2, with commas");
-  command.add_option("--proxy", options.proxy, "render at 1/N of the resolution")
-      ->check(CLI::Range(1, kMaxProxy));
   command.add_option("--threads", options.threads, "threads to use (else one for each core)")
       ->check(CLI::Range(1, kMaxThreads));
   command.add_option("--output", options.output, "the folder for everything that is written");
   command.add_option("--stats", options.stats, "write seconds and bytes of each phase to this JSON file");
   command.add_flag("--redo", options.redo, "make again what is already done and right");
-  command.add_flag("--quiet", options.quiet, "say nothing but errors");
-}
-
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
 }
 
 }  // namespace
@@ -82,13 +76,15 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion& version) {
     parsed.text = std::string(version.what()) + "\n";
   } catch (const CLI::Error& error) {
-    throw Failure(ExitCode::BadShot, "lensplane: " + one_line(error.what()) + "; see lensplane --help");
+    throw Failure(ExitCode::BadShot, "lensplane: " + std::string(error.what()) + "; see lensplane --help");
   }
   return parsed;
 }
 
 Shot shot_of(const Options& options) {
   Shot shot = read_shot(options.shot, options.settings);
+  // Quick looks must not overwrite the frames that they are looks at.
+  if (options.proxy > 1) shot.output.directory /= "proxy" + std::to_string(options.proxy);
   if (!options.output.empty()) shot.output.directory = options.output;
   return proxy_of(std::move(shot), options.proxy);
 }

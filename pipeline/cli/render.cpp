@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <thread>
 
@@ -14,6 +15,7 @@
 #include "pipeline/image/failure.h"
 #include "pipeline/sequence/progress.h"
 #include "pipeline/sequence/render_sequence.h"
+#include "pipeline/sequence/shot_colours.h"
 #include "pipeline/sequence/statistics.h"
 
 namespace lensplane {
@@ -36,15 +38,18 @@ void write_statistics(const Options& options, const Shot& shot, int threads, dou
 void run_render(const Options& options, const std::function<bool()>& interrupted) {
   const Shot shot = shot_of(options);
   const std::vector<int> frames = frames_of(options, shot);
+  const auto& maps = shot.output.maps;
+  if (options.command == Command::Map && std::find(maps.begin(), maps.end(), true) == maps.end()) {
+    throw Failure(ExitCode::BadShot,
+                  shot.file + ": output.maps: none: there is nothing to do for lensplane map");
+  }
   const int threads = threads_of(options);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   OIIO::attribute("threads", threads);
   Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
 
-  const ColourConfig colours = ColourConfig::load(
-      shot.colour.config ? std::optional(shot.colour.config->text) : std::nullopt, std::getenv("OCIO"));
-  check_colours(shot, colours);
+  const ColourConfig colours = load_colours(shot, std::getenv("OCIO"));
   const FrameTasks tasks{.maps = true, .picture = options.command == Command::Render, .redo = options.redo};
   double seconds = 0;
   std::vector<FrameReport> reports;

@@ -51,11 +51,6 @@ const KnownSpace* find_known(const OCIO::ConstConfigRcPtr& config, const std::st
   return nullptr;
 }
 
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 OCIO::ConstConfigRcPtr load_file(const std::string& path, const std::string& named_by) {
   const auto refuse = [&](const std::string& reason) {
     throw Failure(ExitCode::BadInput,
@@ -68,9 +63,18 @@ OCIO::ConstConfigRcPtr load_file(const std::string& path, const std::string& nam
     config->validate();
     return config;
   } catch (const OCIO::Exception& exception) {
-    refuse(one_line(exception.what()));
+    refuse(exception.what());
   }
   return nullptr;
+}
+
+OCIO::ConstProcessorRcPtr view_processor(const OCIO::ConstConfigRcPtr& config, const std::string& working,
+                                         const std::string& display, const std::string& view) {
+  const auto transform = OCIO::DisplayViewTransform::Create();
+  transform->setSrc(working.c_str());
+  transform->setDisplay(display.c_str());
+  transform->setView(view.c_str());
+  return config->getProcessor(transform);
 }
 
 OCIO::BitDepth bit_depth(SampleType type) {
@@ -159,8 +163,22 @@ std::string ColourConfig::space_of_file(const std::string& path) const {
   return config_->getColorSpaceFromFilepath(path.c_str());
 }
 
-std::string ColourConfig::cache_id() const {
-  return config_->getCacheID();
+bool ColourConfig::is_scene_linear(const std::string& space) const {
+  const auto found = config_->getColorSpace(space.c_str());
+  if (!found || found->isData() || found->getReferenceSpaceType() == OCIO::REFERENCE_SPACE_DISPLAY)
+    return false;
+  const std::string encoding = found->getEncoding();
+  return encoding.empty() || encoding == "scene-linear";
+}
+
+// A processor's ID is made from the numbers of its steps; a config's would depend on dates of files, too.
+std::string ColourConfig::conversion_id(const std::string& space, const std::string& working) const {
+  return config_->getProcessor(space.c_str(), working.c_str())->getCacheID();
+}
+
+std::string ColourConfig::view_id(const std::string& working, const std::string& display,
+                                  const std::string& view) const {
+  return view_processor(config_, working, display, view)->getCacheID();
 }
 
 std::string ColourConfig::interop_id(const std::string& space) const {
@@ -207,11 +225,7 @@ Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding&
 
 Picture ColourConfig::to_display(const Picture& picture, const std::string& working,
                                  const std::string& display, const std::string& view) const {
-  const auto transform = OCIO::DisplayViewTransform::Create();
-  transform->setSrc(working.c_str());
-  transform->setDisplay(display.c_str());
-  transform->setView(view.c_str());
-  const auto processor = config_->getProcessor(transform)->getDefaultCPUProcessor();
+  const auto processor = view_processor(config_, working, display, view)->getDefaultCPUProcessor();
   Picture shown = picture;
   apply_rows(processor, picture.pixels.data(), SampleType::Float, picture.width, picture.height,
              shown.pixels.data());

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/image/exr_writer.h"
+#include "pipeline/image/exr_format.h"
 #include "pipeline/image/image_reader.h"
 #include "pipeline/image/picture.h"
 
@@ -38,8 +38,16 @@ class ColourConfig {
   /// The space that the config's file rules give to a file.
   std::string space_of_file(const std::string& path) const;
 
-  /// Identifies the config's contents, for fingerprints.
-  std::string cache_id() const;
+  /// Whether a display is sRGB, by its name.
+  bool is_srgb(const std::string& display) const { return display.starts_with("sRGB"); }
+
+  /// Whether light adds up in a space: linear and relative to the scene. Taken on trust from configs that do
+  /// not say.
+  bool is_scene_linear(const std::string& space) const;
+
+  /// Identify what the two conversions below compute, by contents, for fingerprints.
+  std::string conversion_id(const std::string& space, const std::string& working) const;
+  std::string view_id(const std::string& working, const std::string& display, const std::string& view) const;
 
   /// The colorInteropID of a space, empty when it has none that we know.
   std::string interop_id(const std::string& space) const;

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 namespace lensplane {
@@ -13,19 +14,11 @@ namespace {
 
 constexpr int kPixelsPerBatch = kBatchSize / kRaysPerPixel;
 
-struct FrameSize {
-  explicit FrameSize(const Camera& camera)
-      : overscan(camera.overscan), width(camera.width + 2 * overscan), height(camera.height + 2 * overscan) {}
-  int overscan;
-  int width;   // overscan included
-  int height;  // overscan included
-};
-
 /// Film positions of the rays of the kPixelsPerBatch pixels of a row that begin at `column`. At the end of a
 /// row some may lie beyond it; their rays are not used.
-void place_rays(const FrameSize& size, int row, int column, TraceBatch& batch) {
-  const double left = column - size.overscan;
-  const double top = row - size.overscan;
+void place_rays(const Camera& camera, int row, int column, TraceBatch& batch) {
+  const double left = column - camera.overscan;
+  const double top = row - camera.overscan;
   for (int i = 0; i < kBatchSize; ++i) {
     const int ray = i % kRaysPerPixel;
     batch.x[i] = left + i / kRaysPerPixel + (ray % kRaysPerAxis + 0.5) / kRaysPerAxis;
@@ -40,17 +33,18 @@ bool in_frame(const Camera& camera, double x, double y) {
 /// Calls `use(row, column, pixels, batch)` for every batch of traced rays, rows in parallel.
 template <class Use>
 void trace_pixels(const Tracer& tracer, Use use) {
-  const FrameSize size(tracer.camera());
-  tbb::parallel_for(tbb::blocked_range<int>(0, size.height), [&](const tbb::blocked_range<int>& rows) {
-    TraceBatch batch = tracer.make_batch();
-    for (int row = rows.begin(); row != rows.end(); ++row) {
-      for (int column = 0; column < size.width; column += kPixelsPerBatch) {
-        place_rays(size, row, column, batch);
-        tracer.trace(batch);
-        use(row, column, std::min(kPixelsPerBatch, size.width - column), batch);
-      }
-    }
-  });
+  const Camera& camera = tracer.camera();
+  tbb::parallel_for(tbb::blocked_range<int>(0, camera.full_height()),
+                    [&](const tbb::blocked_range<int>& rows) {
+                      TraceBatch batch = tracer.make_batch();
+                      for (int row = rows.begin(); row != rows.end(); ++row) {
+                        for (int column = 0; column < camera.full_width(); column += kPixelsPerBatch) {
+                          place_rays(camera, row, column, batch);
+                          tracer.trace(batch);
+                          use(row, column, std::min(kPixelsPerBatch, camera.full_width() - column), batch);
+                        }
+                      }
+                    });
 }
 
 /// Rays of each surface, counted row by row so that no two threads meet.
@@ -58,8 +52,8 @@ class HitCounter {
  public:
   explicit HitCounter(const Tracer& tracer)
       : camera_(tracer.camera()),
-        surfaces_(tracer.make_batch().surfaces.size()),
-        counts_(surfaces_ * static_cast<std::size_t>(FrameSize(camera_).height), 0) {}
+        surfaces_(tracer.surfaces().size()),
+        counts_(surfaces_ * static_cast<std::size_t>(camera_.full_height()), 0) {}
 
   void add(int row, int pixels, const TraceBatch& batch) {
     for (std::size_t k = 0; k < surfaces_; ++k) {
@@ -84,12 +78,13 @@ class HitCounter {
   std::vector<std::int64_t> counts_;
 };
 
-/// The surfaces in the order of their depth, farthest first, as far as it does not depend on the ray.
-std::vector<std::size_t> order_at_infinity(const Scene& scene) {
-  std::vector<std::size_t> order(scene.surfaces.size());
+/// The surfaces in the order of their depth, farthest first, as far as it does not depend on the ray: skies,
+/// then everything else.
+std::vector<std::size_t> order_at_infinity(const std::vector<Surface>& surfaces) {
+  std::vector<std::size_t> order(surfaces.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_partition(order.begin(), order.end(),
-                        [&](std::size_t k) { return std::holds_alternative<LatLong>(scene.surfaces[k]); });
+                        [&](std::size_t k) { return std::holds_alternative<LatLong>(surfaces[k]); });
   return order;
 }
 
@@ -152,13 +147,19 @@ Rgba average(const TraceBatch& batch, int pixel, const std::vector<SurfaceLook>&
 
 }  // namespace
 
-Composite composite(const Tracer& tracer, const Scene& scene, const std::vector<SurfaceLook>& looks) {
-  const FrameSize size(tracer.camera());
-  Picture picture{size.width,          size.height, -size.overscan, -size.overscan, scene.camera.width,
-                  scene.camera.height, {}};
-  picture.pixels.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks) {
+  assert(looks.size() == tracer.surfaces().size());
+  const Camera& camera = tracer.camera();
+  Picture picture{camera.full_width(),
+                  camera.full_height(),
+                  -camera.overscan,
+                  -camera.overscan,
+                  camera.width,
+                  camera.height,
+                  {}};
+  picture.pixels.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
   HitCounter counter(tracer);
-  const std::vector<std::size_t> order = order_at_infinity(scene);
+  const std::vector<std::size_t> order = order_at_infinity(tracer.surfaces());
   trace_pixels(tracer, [&](int row, int column, int pixels, const TraceBatch& batch) {
     counter.add(row, pixels, batch);
     for (int pixel = 0; pixel < pixels; ++pixel) {

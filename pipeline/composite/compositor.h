@@ -33,11 +33,11 @@ struct Composite {
   std::vector<std::int64_t> hits;  // per surface: rays inside the frame, without overscan, that meet it
 };
 
-/// The picture that `tracer`'s camera takes of its scene; `looks` in the order of the scene's surfaces.
+/// The picture that the tracer's camera takes; `looks` in the order of its surfaces.
 /// Nearer surfaces lie over farther ones; at infinity plates lie over skies, and later ones over earlier
 /// ones. Where a ray meets nothing the picture is transparent black. Runs in parallel; the picture does not
 /// depend on the number of threads.
-Composite composite(const Tracer& tracer, const Scene& scene, const std::vector<SurfaceLook>& looks);
+Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks);
 
 /// The rays of composite() that meet each surface, without a picture.
 std::vector<std::int64_t> count_hits(const Tracer& tracer);

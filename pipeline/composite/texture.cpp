@@ -45,33 +45,39 @@ Rgba Texture::lookup(TextureCoordinates st) const {
   return colour;
 }
 
-/// The pixel at a position in the display window, which may lie outside of the picture.
+/// The pixel at a position in the display window's coordinates, which may lie outside of it.
 Rgba Texture::texel(int column, int row) const {
-  int x = column - picture_.x;
-  int y = row - picture_.y;
-  const bool inside = x >= 0 && x < picture_.width && y >= 0 && y < picture_.height;
-  if (inside) return picture_.at(x, y);
+  const auto stored = [this](int x, int y) -> Rgba {
+    x -= picture_.x;
+    y -= picture_.y;
+    const bool inside = x >= 0 && x < picture_.width && y >= 0 && y < picture_.height;
+    return inside ? picture_.at(x, y) : Rgba{0, 0, 0, 0};
+  };
   const int width = picture_.display_width;
   const int height = picture_.display_height;
+  const bool in_display = column >= 0 && column < width && row >= 0 && row < height;
+  const bool in_data = column >= picture_.x && column < picture_.x + picture_.width && row >= picture_.y &&
+                       row < picture_.y + picture_.height;
+  if (in_display || in_data) return stored(column, row);
   switch (wrap_) {
     case Wrap::Black:
-      return {0, 0, 0, 0};
-    case Wrap::Clamp:
       break;
+    case Wrap::Clamp: {
+      // To the nearest pixel of either window.
+      const int left = std::min(0, picture_.x), right = std::max(width, picture_.x + picture_.width) - 1;
+      const int top = std::min(0, picture_.y), bottom = std::max(height, picture_.y + picture_.height) - 1;
+      return stored(std::clamp(column, left, right), std::clamp(row, top, bottom));
+    }
     case Wrap::Mirror:
-      x = mirrored(column, width) - picture_.x;
-      y = mirrored(row, height) - picture_.y;
-      break;
+      return stored(mirrored(column, width), mirrored(row, height));
     case Wrap::Repeat:
-      x = modulo(column, width) - picture_.x;
-      y = modulo(row, height) - picture_.y;
-      break;
-    case Wrap::Globe:
-      x = modulo(row < 0 || row >= height ? column + width / 2 : column, width) - picture_.x;
-      y = mirrored(row, height) - picture_.y;
-      break;
+      return stored(modulo(column, width), modulo(row, height));
+    case Wrap::Globe: {
+      const bool beyond_pole = row < 0 || row >= height;
+      return stored(modulo(beyond_pole ? column + width / 2 : column, width), mirrored(row, height));
+    }
   }
-  return picture_.at(std::clamp(x, 0, picture_.width - 1), std::clamp(y, 0, picture_.height - 1));
+  return {0, 0, 0, 0};
 }
 
 }  // namespace lensplane

@@ -6,27 +6,15 @@
 
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "pipeline/image/exr_format.h"
 #include "src/basis.h"
 
 namespace lensplane {
-
-enum class PixelType { Half, Float };
-enum class ExrCompression { None, Rle, Zips, Zip, Piz, Pxr24, B44, B44a, Dwaa, Dwab };
-
-/// A whole-number ratio, as frame rates are exchanged: 24/1, 24000/1001.
-struct Rational {
-  int numerator = 0;
-  int denominator = 1;
-};
-
-/// Primaries and white of a colour space: CIE xy of red, green, blue, white.
-using Chromaticities = std::array<std::array<float, 2>, 4>;
 
 /// What a file says about itself.
 struct ExrHeader {
@@ -55,11 +43,6 @@ struct ExrWindow {
   int width;
   int height;
   int overscan;
-};
-
-struct ExrFormat {
-  PixelType type = PixelType::Half;
-  ExrCompression compression = ExrCompression::Zip;
 };
 
 /// Writes a single-part file, whole or not at all. Half samples are clamped to the largest half. Returns its

@@ -7,8 +7,10 @@
 
 #pragma once
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace lensplane {
 
@@ -20,9 +22,16 @@ enum class ExitCode {
   TryAgain = 75,  // interrupted, or worth another try
 };
 
+/// `text` without line breaks.
+inline std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 class Failure : public std::runtime_error {
  public:
-  Failure(ExitCode code, const std::string& line) : std::runtime_error(line), code_(code) {}
+  /// Line breaks in `line`, from the messages of libraries, become spaces.
+  Failure(ExitCode code, std::string line) : std::runtime_error(one_line(std::move(line))), code_(code) {}
   ExitCode code() const { return code_; }
 
  private:

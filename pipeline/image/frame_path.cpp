@@ -16,19 +16,22 @@ struct Placeholder {
   int padding;
 };
 
+/// The placeholder in the file's own name; folders may be called as they like.
 std::optional<Placeholder> find_placeholder(const std::string& pattern) {
+  const std::size_t name = pattern.find_last_of('/') + 1;  // 0 when there is no folder
   const std::size_t last = pattern.find_last_of('#');
-  if (last != std::string::npos) {
+  if (last != std::string::npos && last >= name) {
     const std::size_t before = pattern.find_last_not_of('#', last);
     const std::size_t start = before == std::string::npos ? 0 : before + 1;
     return Placeholder{start, last + 1 - start, static_cast<int>(last + 1 - start)};
   }
   static const std::regex percent("%(0[1-9])?d");
   std::smatch match;
-  if (!std::regex_search(pattern, match, percent)) return std::nullopt;
+  const std::string file = pattern.substr(name);
+  if (!std::regex_search(file, match, percent)) return std::nullopt;
   const int padding = match[1].matched ? std::stoi(match[1].str()) : 1;
-  return Placeholder{static_cast<std::size_t>(match.position()), static_cast<std::size_t>(match.length()),
-                     padding};
+  return Placeholder{name + static_cast<std::size_t>(match.position()),
+                     static_cast<std::size_t>(match.length()), padding};
 }
 
 }  // namespace

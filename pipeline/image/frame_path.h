@@ -11,8 +11,8 @@ namespace lensplane {
 /// Whether the pattern stands for a numbered sequence.
 bool is_sequence(const std::string& pattern);
 
-/// The file of one frame. The last run of # (padding: their number) or the %0Nd is replaced; a pattern with
-/// neither comes back as it is. Numbers longer than the padding are written in full.
+/// The file of one frame. In the file's own name the last run of # (padding: their number) or the %0Nd is
+/// replaced; a pattern with neither comes back as it is. Numbers longer than the padding are written in full.
 std::string path_of_frame(const std::string& pattern, int frame);
 
 }  // namespace lensplane

@@ -18,8 +18,7 @@ namespace {
 // Half one, to fill the alpha of half files that have none.
 constexpr std::uint16_t kHalfOne = 0x3c00;
 
-[[noreturn]] void refuse(const std::filesystem::path& path, std::string reason) {
-  std::replace(reason.begin(), reason.end(), '\n', ' ');
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw Failure(ExitCode::BadInput, fmt::format("{}: cannot be read as an image: {}", path.string(), reason));
 }
 

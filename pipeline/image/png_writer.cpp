@@ -26,15 +26,14 @@ bool ends_as_png(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::size_t write_png(const std::filesystem::path& path, const Picture& picture,
-                      const std::string& parameters) {
+std::size_t write_png(const std::filesystem::path& path, const Picture& picture, const PngHeader& header) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
   spec["Software"] = std::string("lensplane ") + kVersion;
-  spec["Description"] = parameters;  // PNG carries few kinds of text; this one comes back as it was
+  spec["Description"] = header.parameters;  // PNG carries few kinds of text; this one comes back as it was
   spec["oiio:dither"] = 1;
-  spec["oiio:ColorSpace"] = "sRGB";
+  if (header.srgb) spec["oiio:ColorSpace"] = "sRGB";
   const auto output = OIIO::ImageOutput::create("png");
   if (!output || !output->set_ioproxy(&memory) || !output->open(path.string(), spec) ||
       !output->write_image(OIIO::TypeDesc::FLOAT, picture.pixels.data(), sizeof(Rgba)) || !output->close()) {

@@ -12,11 +12,15 @@
 
 namespace lensplane {
 
+/// What a file says about itself.
+struct PngHeader {
+  std::string parameters = {};  // for read_png_parameters
+  bool srgb = true;             // whether the colours are sRGB; else the file does not say what they are
+};
+
 /// Writes display-referred colours (0 to 1; what lies outside is clamped) as 8-bit RGB, dithered against
-/// banding, whole or not at all. `parameters` is kept in the file for read_png_parameters. Returns its size
-/// in bytes. Throws Failure (BadOutput).
-std::size_t write_png(const std::filesystem::path& path, const Picture& picture,
-                      const std::string& parameters);
+/// banding, whole or not at all. Returns its size in bytes. Throws Failure (BadOutput).
+std::size_t write_png(const std::filesystem::path& path, const Picture& picture, const PngHeader& header);
 
 /// The `parameters` of a file written by write_png; nothing when there is no such file or it is not whole.
 std::optional<std::string> read_png_parameters(const std::filesystem::path& path);

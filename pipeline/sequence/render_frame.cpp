@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <sstream>
 
 #include "pipeline/composite/compositor.h"
 #include "pipeline/composite/locator.h"
+#include "pipeline/image/exr_writer.h"
 #include "pipeline/image/png_writer.h"
 #include "pipeline/sequence/fingerprint.h"
 #include "pipeline/shot/shot_scene.h"
@@ -23,24 +25,27 @@ struct FrameSetup {
   ExrHeader map_header;
   ExrHeader picture_header;
   std::string review_parameters;
-  bool maps_wanted;
-  bool picture_wanted;
-  bool review_wanted;
+  std::vector<std::size_t> maps;  // layers whose maps are wanted and not there
+  bool picture = false;           // whether picture or review are wanted and not there
 };
 
 ExrWindow window_of(const Camera& camera) {
   return {camera.width, camera.height, camera.overscan};
 }
 
-/// The rate determines no pixel, but the header says it.
-Fingerprint fingerprint_of_map(const Shot& shot, const FrameSetup& setup) {
-  return fingerprint_of_trace(setup.scene, setup.plan).add(shot.fps.numerator).add(shot.fps.denominator);
+/// The frame rate and the working space determine no number of a map, but its header says them.
+std::string fingerprint_of_map(const Shot& shot, const ColourConfig& colours, const FrameSetup& setup) {
+  return fingerprint_of_trace(setup.scene, setup.plan)
+      .add(shot.fps.numerator)
+      .add(shot.fps.denominator)
+      .add(colours.interop_id(shot.colour.working.text))
+      .digest();
 }
 
-std::string fingerprint_of_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures,
-                                   int frame, const FrameSetup& setup) {
-  Fingerprint print = fingerprint_of_map(shot, setup);
-  print.add(colours.cache_id()).add(shot.colour.working.text);
+std::string fingerprint_of_picture(const Shot& shot, TextureStore& textures, int frame,
+                                   const FrameSetup& setup) {
+  Fingerprint print;
+  print.add(setup.map_header.parameters).add(shot.colour.working.text);
   print.add(static_cast<double>(shot.output.image.type))
       .add(static_cast<double>(shot.output.image.compression));
   for (std::size_t k = 0; k < shot.layers.size(); ++k) {
@@ -50,16 +55,16 @@ std::string fingerprint_of_picture(const Shot& shot, const ColourConfig& colours
   return print.digest();
 }
 
-FrameSetup prepare(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
-                   const FrameTasks& tasks) {
-  FrameSetup setup;
-  setup.scene = scene_at(shot, frame);
-  setup.plan = plan_trace(setup.scene, shot.method);
-  const auto& maps = shot.output.maps;
-  setup.maps_wanted = tasks.maps && std::find(maps.begin(), maps.end(), true) != maps.end();
-  setup.picture_wanted = tasks.picture;
-  setup.review_wanted = tasks.picture && shot.output.review;
+std::string fingerprint_of_review(const Shot& shot, const ColourConfig& colours, const FrameSetup& setup) {
+  const ColourSettings& colour = shot.colour;
+  return Fingerprint()
+      .add(setup.picture_header.parameters)
+      .add(colours.view_id(colour.working.text, colour.display.text, colour.view.text))
+      .add(static_cast<double>(shot.output.locator))
+      .digest();
+}
 
+ExrHeader common_header(const Shot& shot, const ColourConfig& colours, int frame, const FrameSetup& setup) {
   ExrHeader header;
   header.shot = shot.name;
   header.frame = frame;
@@ -68,33 +73,36 @@ FrameSetup prepare(const Shot& shot, const ColourConfig& colours, TextureStore& 
   header.camera_axes = setup.scene.camera.axes;
   header.camera_position = setup.scene.camera.position;
   header.chromaticities = colours.chromaticities(shot.colour.working.text);
-  setup.map_header = header;
-  setup.map_header.colour_interop = "data";
-  setup.map_header.parameters = fingerprint_of_map(shot, setup).digest();
-  if (setup.picture_wanted) {
-    setup.picture_header = header;
-    setup.picture_header.colour_interop = colours.interop_id(shot.colour.working.text);
-    setup.picture_header.parameters = fingerprint_of_picture(shot, colours, textures, frame, setup);
-    setup.review_parameters = Fingerprint()
-                                  .add(setup.picture_header.parameters)
-                                  .add(shot.colour.display.text)
-                                  .add(shot.colour.view.text)
-                                  .add(static_cast<double>(shot.output.locator))
-                                  .digest();
-  }
-  return setup;
+  return header;
 }
 
-bool is_done(const Shot& shot, int frame, const FrameSetup& setup) {
-  const auto exr_done = [](const std::filesystem::path& path, const ExrHeader& header) {
-    return read_exr_attribute(path, "parameters") == header.parameters;
-  };
-  for (std::size_t k = 0; setup.maps_wanted && k < shot.layers.size(); ++k) {
-    if (shot.output.maps[k] && !exr_done(map_path(shot, shot.layers[k].name, frame), setup.map_header))
-      return false;
+bool exr_is_done(const std::filesystem::path& path, const ExrHeader& header) {
+  return read_exr_attribute(path, "parameters") == header.parameters;
+}
+
+FrameSetup prepare(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
+                   const FrameTasks& tasks) {
+  FrameSetup setup;
+  setup.scene = scene_at(shot, frame);
+  setup.plan = plan_trace(setup.scene, shot.method);
+  setup.map_header = common_header(shot, colours, frame, setup);
+  setup.map_header.colour_interop = "data";
+  setup.map_header.parameters = fingerprint_of_map(shot, colours, setup);
+  for (std::size_t k = 0; tasks.maps && k < shot.layers.size(); ++k) {
+    if (!shot.output.maps[k]) continue;
+    if (tasks.redo || !exr_is_done(map_path(shot, shot.layers[k].name, frame), setup.map_header))
+      setup.maps.push_back(k);
   }
-  if (setup.picture_wanted && !exr_done(picture_path(shot, frame), setup.picture_header)) return false;
-  return !setup.review_wanted || read_png_parameters(review_path(shot, frame)) == setup.review_parameters;
+  if (!tasks.picture) return setup;
+  setup.picture_header = common_header(shot, colours, frame, setup);
+  setup.picture_header.colour_interop = colours.interop_id(shot.colour.working.text);
+  setup.picture_header.parameters = fingerprint_of_picture(shot, textures, frame, setup);
+  if (shot.output.review) setup.review_parameters = fingerprint_of_review(shot, colours, setup);
+  const bool picture_done = exr_is_done(picture_path(shot, frame), setup.picture_header);
+  const bool review_done =
+      !shot.output.review || read_png_parameters(review_path(shot, frame)) == setup.review_parameters;
+  setup.picture = tasks.redo || !picture_done || !review_done;
+  return setup;
 }
 
 /// "earth 4.46 moon -": as the picture's header keeps the factors.
@@ -122,23 +130,18 @@ std::vector<Amplification> amplifications_from_text(const std::string& text) {
 void make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport& report) {
   Scene wanted = setup.scene;
   wanted.surfaces.clear();
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
-    if (!shot.output.maps[k]) continue;
-    wanted.surfaces.push_back(setup.scene.surfaces[k]);
-    names.push_back(shot.layers[k].name);
-  }
+  for (const std::size_t k : setup.maps) wanted.surfaces.push_back(setup.scene.surfaces[k]);
   const auto maps =
       timed(report[Phase::Trace].seconds, [&] { return trace_maps(Tracer(wanted, setup.plan)); });
   report.rays += static_cast<std::int64_t>(maps.front().width) * maps.front().height;
-  for (std::size_t k = 0; k < maps.size(); ++k) {
-    const LensMap& map = maps[k];
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const LensMap& map = maps[i];
     report[Phase::Trace].bytes += 3 * sizeof(float) * map.s.size();
     const std::vector<ExrChannel> channels = {
         {"R", map.s.data()}, {"G", map.t.data()}, {"B", map.valid.data()}};
     report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
-      return write_exr(map_path(shot, names[k], frame), window_of(setup.scene.camera), channels,
-                       {PixelType::Float, ExrCompression::Zip}, setup.map_header);
+      return write_exr(map_path(shot, shot.layers[setup.maps[i]].name, frame), window_of(setup.scene.camera),
+                       channels, {PixelType::Float, ExrCompression::Zip}, setup.map_header);
     });
   }
 }
@@ -219,8 +222,8 @@ void make_review(const Shot& shot, const ColourConfig& colours, int frame, const
   if (shot.output.locator == Locator::Beside) {
     const LocatorView locator = make_locator(setup.scene, looks);
     const Tracer tracer(locator.scene, plan_trace(locator.scene, setup.plan.method));
-    const Composite view = timed(report[Phase::Composite].seconds,
-                                 [&] { return composite(tracer, locator.scene, locator.looks); });
+    const Composite view =
+        timed(report[Phase::Composite].seconds, [&] { return composite(tracer, locator.looks); });
     shown = beside(shown, display_window(view.picture));
   }
   const Picture display = timed(report[Phase::View].seconds, [&] {
@@ -229,7 +232,8 @@ void make_review(const Shot& shot, const ColourConfig& colours, int frame, const
   });
   report[Phase::View].bytes += display.pixels.size() * sizeof(Rgba);
   report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
-    return write_png(review_path(shot, frame), display, setup.review_parameters);
+    return write_png(review_path(shot, frame), display,
+                     {setup.review_parameters, colours.is_srgb(shot.colour.display.text)});
   });
 }
 
@@ -237,15 +241,14 @@ void make_picture(const Shot& shot, const ColourConfig& colours, TextureStore& t
                   const FrameSetup& setup, FrameReport& report) {
   const auto looks = load_looks(shot, setup.scene, textures, frame, report);
   const Tracer tracer(setup.scene, setup.plan);
-  const Composite result =
-      timed(report[Phase::Composite].seconds, [&] { return composite(tracer, setup.scene, looks); });
+  const Composite result = timed(report[Phase::Composite].seconds, [&] { return composite(tracer, looks); });
   report.rays += static_cast<std::int64_t>(result.picture.pixels.size()) * kRaysPerPixel;
   report[Phase::Composite].bytes += result.picture.pixels.size() * sizeof(Rgba);
   report.amplifications = timed(report[Phase::Trace].seconds, [&] {
     return amplifications_of(shot, setup.scene, setup.plan.method, result.hits);
   });
   write_picture(shot, frame, setup, result.picture, report);
-  if (setup.review_wanted) make_review(shot, colours, frame, setup, result.picture, looks, report);
+  if (shot.output.review) make_review(shot, colours, frame, setup, result.picture, looks, report);
 }
 
 }  // namespace
@@ -268,15 +271,13 @@ FrameReport render_frame(const Shot& shot, const ColourConfig& colours, TextureS
   report.frame = frame;
   timed(report.seconds, [&] {
     const FrameSetup setup = prepare(shot, colours, textures, frame, tasks);
-    report.already_done = !tasks.redo && is_done(shot, frame, setup);
-    if (report.already_done) {
-      const auto kept = setup.picture_wanted ? read_exr_attribute(picture_path(shot, frame), "amplification")
-                                             : std::nullopt;
+    report.already_done = setup.maps.empty() && !setup.picture;
+    if (!setup.maps.empty()) make_maps(shot, frame, setup, report);
+    if (setup.picture) make_picture(shot, colours, textures, frame, setup, report);
+    if (tasks.picture && !setup.picture) {
+      const auto kept = read_exr_attribute(picture_path(shot, frame), "amplification");
       report.amplifications = amplifications_from_text(kept.value_or(""));
-      return;
     }
-    if (setup.maps_wanted) make_maps(shot, frame, setup, report);
-    if (setup.picture_wanted) make_picture(shot, colours, textures, frame, setup, report);
   });
   return report;
 }

@@ -25,7 +25,7 @@ std::filesystem::path picture_path(const Shot& shot, int frame);
 std::filesystem::path map_path(const Shot& shot, const std::string& layer, int frame);
 std::filesystem::path review_path(const Shot& shot, int frame);
 
-/// Makes the frame's files, or finds that all of them are there and right. Throws Failure.
+/// Makes those of the frame's files that are not there or not right. Throws Failure.
 FrameReport render_frame(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
                          const FrameTasks& tasks);
 

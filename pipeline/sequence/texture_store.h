@@ -15,10 +15,6 @@
 
 namespace lensplane {
 
-/// Throws Failure (BadShot) when the shot names a colour space, display or view that the config does not
-/// have.
-void check_colours(const Shot& shot, const ColourConfig& colours);
-
 /// Safe to use from many threads. Still images are kept; those of sequences are read for their frame.
 class TextureStore {
  public:
@@ -32,7 +28,6 @@ class TextureStore {
   std::string digest(std::size_t layer, int frame);
 
  private:
-  std::shared_ptr<const Texture> load(const Layer& layer, const std::string& path) const;
   ImageEncoding encoding_of(const Layer& layer, const std::string& path) const;
 
   const Shot& shot_;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMaxResolution = 65536;
 constexpr int kMaxOverscan = 16384;
+constexpr int kMaxPixels = 1 << 28;  // 16384 x 16384
 
 enum class ProjectionKind { Perspective, LatLong, Fisheye };
 constexpr std::array<std::string_view, 3> kProjectionNames = {"perspective", "latlong", "fisheye"};
@@ -28,6 +29,8 @@ ProjectionKind read_projection(const Value& camera, NotYet& not_yet) {
 
 double read_fov(const Value& fov, ProjectionKind kind) {
   const double angle = fov.positive(Dimension::Angle);
+  if (angle < kNarrowestFov)
+    fov.refuse(in_quotes(fov.text()) + " is narrower than any picture; allowed: from 1e-15 rad");
   if (kind == ProjectionKind::Perspective && !(angle < kPi)) {
     fov.refuse(in_quotes(fov.text()) +
                "; allowed for a perspective camera: more than 0 deg and less than 180 deg");
@@ -45,7 +48,7 @@ std::variant<Keyed<double>, FocalLength> read_field_of_view(const Value& camera,
   if (focal_length) {
     const Value width = camera.require("film_width", "the film's width for this focal_length, like 36 mm");
     return FocalLength{read_keyed_positive(*focal_length, Dimension::Length),
-                       read_keyed_positive(width, Dimension::Length)};
+                       read_keyed_positive(width, Dimension::Length), focal_length->location()};
   }
   if (!fov && kind == ProjectionKind::LatLong) return Keyed<double>::constant(2.0 * kPi);
   const Value needed =
@@ -100,12 +103,20 @@ int read_overscan(const Value& overscan, NotYet& not_yet) {
   return pixels;
 }
 
-void read_shutter(const Value& shutter, CameraTrack& track, NotYet& not_yet) {
+/// Motion blur is what the shutter is for; until it is there the shutter is only checked.
+void check_shutter(const Value& shutter, NotYet& not_yet) {
   shutter.only_keys({"open", "close", "samples"});
-  if (const auto open = shutter.find("open")) track.shutter_open = open->quantity(Dimension::Number);
-  if (const auto close = shutter.find("close")) track.shutter_close = close->quantity(Dimension::Number);
-  if (track.shutter_close < track.shutter_open)
-    shutter.refuse("closes before it opens; allowed: open <= close");
+  const auto edge = [&shutter](std::string_view name) {
+    const auto value = shutter.find(name);
+    return value ? read_keyed_quantity(*value, Dimension::Number) : Keyed<double>{};
+  };
+  const Keyed<double> open = edge("open"), close = edge("close");
+  for (const Keyed<double>* keyed : {&open, &close}) {
+    for (const double frame : keyed->frames) {
+      if (value_at(close, frame) < value_at(open, frame))
+        shutter.refuse("closes before it opens; allowed: open <= close");
+    }
+  }
   if (const auto samples = shutter.find("samples")) {
     if (samples->integer(1, 1024) > 1) not_yet.add(*samples, "motion blur; write 1");
   }
@@ -132,7 +143,12 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not
     track.position = read_keyed_vector(*position, Dimension::Length);
   track.orientation = read_orientation(camera, names);
   if (const auto overscan = camera.find("overscan")) track.overscan = read_overscan(*overscan, not_yet);
-  if (const auto shutter = camera.find("shutter")) read_shutter(*shutter, track, not_yet);
+  const double pixels = (track.width + 2.0 * track.overscan) * (track.height + 2.0 * track.overscan);
+  if (pixels > kMaxPixels) {
+    camera.require("resolution", "")
+        .refuse(fmt::format("more than {} million pixels with overscan", kMaxPixels >> 20));
+  }
+  if (const auto shutter = camera.find("shutter")) check_shutter(*shutter, not_yet);
   return track;
 }
 

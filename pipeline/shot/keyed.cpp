@@ -25,45 +25,39 @@ double end_slope(double width, double secant, double next_width, double next_sec
   return slope;
 }
 
-/// Slope of the monotone cubic at key `k`.
-double slope_at(const std::vector<double>& x, const std::vector<double>& y, std::size_t k) {
-  const auto width = [&x](std::size_t i) { return x[i + 1] - x[i]; };
-  const auto secant = [&](std::size_t i) { return (y[i + 1] - y[i]) / width(i); };
+/// The value at a frame of the component of T that `y(k)` gives for key k.
+double interpolate(const std::vector<double>& x, Interpolation interpolation, double frame, auto y) {
+  const auto width = [&](std::size_t k) { return x[k + 1] - x[k]; };
+  const auto secant = [&](std::size_t k) { return (y(k + 1) - y(k)) / width(k); };
   const std::size_t last = x.size() - 1;
-  if (last == 1) return secant(0);
-  if (k == 0) return end_slope(width(0), secant(0), width(1), secant(1));
-  if (k == last) return end_slope(width(last - 1), secant(last - 1), width(last - 2), secant(last - 2));
-  return inner_slope(width(k - 1), secant(k - 1), width(k), secant(k));
-}
-
-double smooth(const std::vector<double>& x, const std::vector<double>& y, std::size_t k, double frame) {
-  const double width = x[k + 1] - x[k];
-  const double u = (frame - x[k]) / width;
+  const auto slope = [&](std::size_t k) {
+    if (last == 1) return secant(0);
+    if (k == 0) return end_slope(width(0), secant(0), width(1), secant(1));
+    if (k == last) return end_slope(width(last - 1), secant(last - 1), width(last - 2), secant(last - 2));
+    return inner_slope(width(k - 1), secant(k - 1), width(k), secant(k));
+  };
+  if (frame <= x.front()) return y(0);
+  if (frame >= x.back()) return y(last);
+  const auto k = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), frame) - x.begin()) - 1;
+  if (frame == x[k] || interpolation == Interpolation::Step) return y(k);
+  const double u = (frame - x[k]) / width(k);
+  if (interpolation == Interpolation::Linear) return y(k) + (y(k + 1) - y(k)) * u;
   const double rise = u * u * (3.0 - 2.0 * u);
-  return y[k] + (y[k + 1] - y[k]) * rise +
-         width * u * (1.0 - u) * ((1.0 - u) * slope_at(x, y, k) - u * slope_at(x, y, k + 1));
+  return y(k) + (y(k + 1) - y(k)) * rise +
+         width(k) * u * (1.0 - u) * ((1.0 - u) * slope(k) - u * slope(k + 1));
 }
 
 }  // namespace
 
 double value_at(const Keyed<double>& keyed, double frame) {
-  const auto& [frames, values, interpolation] = keyed;
-  if (frame <= frames.front()) return values.front();
-  if (frame >= frames.back()) return values.back();
-  const auto after = std::upper_bound(frames.begin(), frames.end(), frame);
-  const auto k = static_cast<std::size_t>(after - frames.begin()) - 1;
-  if (frame == frames[k] || interpolation == Interpolation::Step) return values[k];
-  if (interpolation == Interpolation::Smooth) return smooth(frames, values, k, frame);
-  const double u = (frame - frames[k]) / (frames[k + 1] - frames[k]);
-  return values[k] + (values[k + 1] - values[k]) * u;
+  return interpolate(keyed.frames, keyed.interpolation, frame,
+                     [&](std::size_t k) { return keyed.values[k]; });
 }
 
 Vec3 value_at(const Keyed<Vec3>& keyed, double frame) {
   const auto component = [&](int axis) {
-    Keyed<double> one{keyed.frames, {}, keyed.interpolation};
-    one.values.clear();
-    for (const Vec3& value : keyed.values) one.values.push_back(value[axis]);
-    return value_at(one, frame);
+    return interpolate(keyed.frames, keyed.interpolation, frame,
+                       [&](std::size_t k) { return keyed.values[k][axis]; });
   };
   return {component(0), component(1), component(2)};
 }

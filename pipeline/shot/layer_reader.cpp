@@ -17,10 +17,11 @@ constexpr std::array<std::string_view, 6> kTypeNames = {"plate", "latlong", "sph
 LayerImage read_image(const Value& layer) {
   const Value value =
       layer.require("image", "the path of an image, or of a sequence, like plates/bg.####.exr");
-  if (!value.is_map()) return {value.text(), std::nullopt, std::nullopt};
+  const auto located_text = [](const Value& v) { return LocatedText{v.text(), v.location(), v.key()}; };
+  if (!value.is_map()) return {located_text(value), std::nullopt, std::nullopt};
   value.only_keys({"file", "space", "alpha"});
-  LayerImage image{value.require("file", "the path of an image").text(), std::nullopt, std::nullopt};
-  if (const auto space = value.find("space")) image.space = {space->text(), space->location(), space->key()};
+  LayerImage image{located_text(value.require("file", "the path of an image")), std::nullopt, std::nullopt};
+  if (const auto space = value.find("space")) image.space = located_text(*space);
   if (const auto alpha = value.find("alpha")) {
     constexpr std::array<std::string_view, 3> kNames = {"associated", "straight", "none"};
     image.alpha = static_cast<AlphaKind>(alpha->choice(kNames));

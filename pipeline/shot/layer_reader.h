@@ -6,6 +6,7 @@
 
 #include "pipeline/shot/not_yet.h"
 #include "pipeline/shot/shot.h"
+#include "pipeline/shot/shot_names.h"
 
 namespace lensplane {
 

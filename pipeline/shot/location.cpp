@@ -10,9 +10,14 @@
 
 namespace lensplane {
 
+std::string located(const Location& location, const std::string& key, const std::string& what) {
+  constexpr std::size_t kLongestKey = 200;
+  return fmt::format("{}:{}:{}: {}{}{}", *location.file, location.line, location.column,
+                     key.substr(0, kLongestKey), key.empty() ? "" : ": ", what);
+}
+
 void refuse(const Location& location, const std::string& key, const std::string& what) {
-  throw Failure(ExitCode::BadShot, fmt::format("{}:{}:{}: {}{}{}", *location.file, location.line,
-                                               location.column, key, key.empty() ? "" : ": ", what));
+  throw Failure(ExitCode::BadShot, located(location, key, what));
 }
 
 std::string in_quotes(std::string_view text) {

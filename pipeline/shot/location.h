@@ -17,8 +17,10 @@ struct Location {
   int column = 0;
 };
 
-/// Throws Failure (BadShot) "FILE:LINE:COLUMN: KEY: WHAT" (without "KEY: " when it is empty). `what` says
-/// what is wrong and what is allowed.
+/// "FILE:LINE:COLUMN: KEY: WHAT" (without "KEY: " when it is empty).
+std::string located(const Location& location, const std::string& key, const std::string& what);
+
+/// Throws Failure (BadShot) with the line of located(). `what` says what is wrong and what is allowed.
 [[noreturn]] void refuse(const Location& location, const std::string& key, const std::string& what);
 
 /// `text` between quotes as an error message shows it: on one line, and not more of it than one cares to

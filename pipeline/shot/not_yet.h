@@ -17,25 +17,15 @@ class NotYet {
  public:
   /// "KEY: not available yet: WHAT".
   void add(const Value& value, const std::string& what) {
-    try {
-      value.refuse("not available yet: " + what);
-    } catch (const Failure& failure) {
-      failures_.push_back(failure);
-    }
+    lines_.push_back(located(value.location(), value.key(), "not available yet: " + what));
   }
 
   void throw_first() const {
-    if (!failures_.empty()) throw failures_.front();
+    if (!lines_.empty()) throw Failure(ExitCode::BadShot, lines_.front());
   }
 
  private:
-  std::vector<Failure> failures_;
-};
-
-/// The names that other parts of the shot may refer to, in file order.
-struct ShotNames {
-  std::vector<std::string> lenses;
-  std::vector<std::string> layers;
+  std::vector<std::string> lines_;
 };
 
 }  // namespace lensplane

@@ -5,13 +5,12 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "pipeline/image/exr_writer.h"
+#include "pipeline/image/exr_format.h"
 #include "pipeline/shot/keyed.h"
 #include "pipeline/shot/location.h"
 #include "src/method.h"
@@ -25,10 +24,14 @@ struct LocatedText {
   std::string key;
 };
 
+/// The narrowest field of view, in radians: narrower ones cannot be told from nothing in double precision.
+inline constexpr double kNarrowestFov = 1e-15;
+
 /// The camera's field of view as the focal length of a lens.
 struct FocalLength {
   Keyed<double> focal_length;  // metres
   Keyed<double> film_width;    // metres
+  Location location;
 };
 
 struct LensIndex {
@@ -57,8 +60,6 @@ struct CameraTrack {
   std::variant<Keyed<double>, FocalLength> fov;  // radians across the width
   Keyed<Vec3> position;
   std::variant<Rotation, LookAt> orientation;
-  double shutter_open = 0;   // frames
-  double shutter_close = 0;  // frames
 };
 
 struct LensTrack {
@@ -74,7 +75,7 @@ enum class Edge { Black, Clamp, Mirror, Repeat };
 enum class AlphaKind { Associated, Straight, None };
 
 struct LayerImage {
-  std::string pattern;  // a path, or that of a sequence; see path_of_frame
+  LocatedText pattern;  // a path, or that of a sequence; see path_of_frame
   std::optional<LocatedText> space;
   std::optional<AlphaKind> alpha;  // absent: as the file says
 };

@@ -126,7 +126,7 @@ Method read_trace(const Value& root, NotYet& not_yet) {
     const auto law = trace->find("law");
     const std::size_t chosen = law ? law->choice(kLaws) : 0;
     if (chosen == 1 || chosen == 2) not_yet.add(*law, law->text() + "; write weak or auto");
-    if (const auto tolerance = trace->find("tolerance")) tolerance->positive(Dimension::Pixels);
+    if (const auto tolerance = trace->find("tolerance")) read_keyed_positive(*tolerance, Dimension::Pixels);
     if (const auto effects = trace->find("effects")) {
       effects->only_keys({"finite_distance"});
       constexpr std::array<std::string_view, 3> kStates = {"on", "off", "auto"};
@@ -270,8 +270,8 @@ Shot read_shot(const std::filesystem::path& path, const std::vector<std::string>
     return (folder / file).lexically_normal().string();
   };
   for (Layer& layer : shot.layers) {
-    if (!layer.image.pattern.starts_with(kShippedPrefix))
-      layer.image.pattern = beside_shot(layer.image.pattern);
+    std::string& pattern = layer.image.pattern.text;
+    if (!pattern.starts_with(kShippedPrefix)) pattern = beside_shot(pattern);
   }
   if (shot.colour.config) shot.colour.config->text = beside_shot(shot.colour.config->text);
   shot.output.directory = beside_shot(shot.output.directory.string());

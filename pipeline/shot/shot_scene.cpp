@@ -7,12 +7,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/constants.h"
+
 namespace lensplane {
 namespace {
 
 double fov_at(const CameraTrack& camera, double frame) {
   if (const auto* lens = std::get_if<FocalLength>(&camera.fov)) {
-    return 2.0 * std::atan2(value_at(lens->film_width, frame) / 2.0, value_at(lens->focal_length, frame));
+    const double fov =
+        2.0 * std::atan2(value_at(lens->film_width, frame) / 2.0, value_at(lens->focal_length, frame));
+    if (fov >= kNarrowestFov && fov < kPi) return fov;
+    refuse(lens->location, "camera.focal_length",
+           fmt::format("at frame {} the field of view is {} rad; allowed: from 1e-15 to less than pi", frame,
+                       fov));
   }
   return value_at(std::get<Keyed<double>>(camera.fov), frame);
 }

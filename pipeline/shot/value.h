@@ -69,11 +69,6 @@ class Value {
   std::string key_;
 };
 
-/// A value that is constant or keyed, `{keys: {FRAME: VALUE, ...}, interpolate: ...}`; `read` reads one
-/// Value.
-template <class Read>
-auto read_keyed(const Value& value, Read read) -> Keyed<decltype(read(value))>;
-
 /// The keyed form's frames, their values, and the interpolation; nothing when `value` is not keyed.
 struct KeyFrames {
   std::vector<double> frames;
@@ -82,6 +77,8 @@ struct KeyFrames {
 };
 std::optional<KeyFrames> find_key_frames(const Value& value);
 
+/// A value that is constant or keyed, `{keys: {FRAME: VALUE, ...}, interpolate: ...}`; `read` reads one
+/// Value.
 template <class Read>
 auto read_keyed(const Value& value, Read read) -> Keyed<decltype(read(value))> {
   const auto keyed = find_key_frames(value);

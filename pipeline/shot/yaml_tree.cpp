@@ -7,9 +7,8 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -42,7 +41,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (found == anchors_.end()) refuse(at(mark), "", "an alias inside of what it stands for");
     count_ += found->second.second;
     refuse_too_many(at(mark));
-    count_ -= 1;  // add() counts the root of the copy
+    count_ -= weight_of(found->second.first.text);  // add() counts the root of the copy
     add(found->second.first, 0);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -95,6 +94,9 @@ class TreeBuilder : public YAML::EventHandler {
     add(std::move(done.node), done.anchor, done.count_before);
   }
 
+  /// What a value counts for: one, and more for long text.
+  static std::size_t weight_of(const std::string& text) { return 1 + text.size() / 128; }
+
   bool awaits_key() const {
     return !open_.empty() && open_.back().node.kind == YamlNode::Kind::Map &&
            open_.back().node.keys.size() == open_.back().node.items.size();
@@ -103,9 +105,13 @@ class TreeBuilder : public YAML::EventHandler {
   void add(YamlNode node, YAML::anchor_t anchor) { add(std::move(node), anchor, count_); }
 
   void add(YamlNode node, YAML::anchor_t anchor, std::size_t count_before) {
-    ++count_;
+    count_ += weight_of(node.text);
+    if (anchor != 0) {
+      const std::size_t weight = count_ - count_before;
+      count_ += weight;  // the copy that aliases will stand for
+      anchors_[anchor] = {node, weight};
+    }
     refuse_too_many(node.location);
-    if (anchor != 0) anchors_[anchor] = {node, count_ - count_before};
     if (open_.empty()) {
       root_ = std::move(node);
     } else if (awaits_key()) {
@@ -210,11 +216,9 @@ YamlNode read_yaml(const std::filesystem::path& path) {
            fmt::format("the file is larger than {} MiB; is it a shot?", kMaxShotBytes >> 20));
   }
   std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  if (!(text << stream.rdbuf()) && errno != 0) {
-    throw Failure(ExitCode::BadInput, fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
-  }
-  return parse_yaml(text.str(), file);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream.is_open() || stream.bad()) throw Failure(ExitCode::BadInput, file + ": cannot be read");
+  return parse_yaml(text, file);
 }
 
 }  // namespace lensplane

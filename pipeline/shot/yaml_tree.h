@@ -37,7 +37,7 @@ struct YamlNode {
 // Bounds that no shot comes near: a file of this size keys ten values on ten thousand frames.
 inline constexpr std::size_t kMaxShotBytes = 4 << 20;
 inline constexpr int kMaxYamlDepth = 32;
-inline constexpr std::size_t kMaxYamlNodes = 500'000;
+inline constexpr std::size_t kMaxYamlNodes = 500'000;  // aliases counted as what they stand for
 
 /// Parses `text`, which stands in `file`. Throws Failure (BadShot), located.
 YamlNode parse_yaml(const std::string& text, const std::string& file);

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <map>
@@ -42,6 +45,7 @@ output: {directory: out}
 std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    if (!file.is_regular_file()) continue;
     files[file.path().filename().string()] = contents_of(file.path());
   }
   return files;
@@ -136,9 +140,13 @@ TEST(CommandLine, FilesCarryNoPathsNamesOrDates) {
   const TemporaryFolder folder;
   const auto shot = folder.write("small.yaml", kSmallShot).string();
   ASSERT_EQ(lensplane({"render", shot, "-f", "1001"}).exit_code, 0);
+  std::array<char, 256> host{};
+  ASSERT_EQ(::gethostname(host.data(), host.size()), 0);
   for (const auto& [name, text] : files_of(folder / "out")) {
     EXPECT_EQ(text.find(folder.path().string()), std::string::npos) << name;
-    EXPECT_EQ(text.find("capDate"), std::string::npos) << name;
+    for (const char* date : {"capDate", "DateTime", "tIME"})
+      EXPECT_EQ(text.find(date), std::string::npos) << name;
+    EXPECT_EQ(text.find(host.data()), std::string::npos) << name;
     EXPECT_EQ(text.find("textures/"), std::string::npos) << name;
   }
 }
@@ -165,20 +173,59 @@ TEST(CommandLine, MapWritesOnlyMaps) {
 TEST(CommandLine, SecondRunSkipsWhatIsDoneAndRedoesWhatIsNot) {
   const TemporaryFolder folder;
   const auto shot = folder.write("small.yaml", kSmallShot).string();
-  const std::string first = lensplane({"render", shot}).out;
+  lensplane({"render", shot});
   const auto files = files_of(folder / "out");
+  const auto map_time = std::filesystem::last_write_time(folder / "out/small.earth.map.1001.exr");
   const std::string second = lensplane({"render", shot}).out;
   EXPECT_THAT(second, HasSubstr("1001: already done, A(earth) = "));
   EXPECT_THAT(second, HasSubstr("1002: already done"));
-  // A file that is cut off, one that is missing, one of another size of shot: all are made again, the same.
+  // A file that is cut off and one that is missing are made again, the same; what is right stays as it is.
   std::filesystem::resize_file(folder / "out/small.1001.exr", 700);
   std::filesystem::remove(folder / "out/small.review.1002.png");
-  const std::string third = lensplane({"render", shot}).out;
-  EXPECT_EQ(third.find("already done"), std::string::npos);
+  EXPECT_EQ(lensplane({"render", shot}).out.find("already done"), std::string::npos);
   EXPECT_EQ(files_of(folder / "out"), files);
-  EXPECT_EQ(lensplane({"render", shot, "--set", "lenses.near.mass=2e31 kg"}).out.find("already done"),
-            std::string::npos);
-  EXPECT_EQ(lensplane({"render", shot, "--proxy", "2"}).out.find("already done"), std::string::npos);
+  EXPECT_EQ(std::filesystem::last_write_time(folder / "out/small.earth.map.1001.exr"), map_time);
+}
+
+TEST(CommandLine, EveryChangeOfWhatIsSeenIsRenderedAnew) {
+  const TemporaryFolder folder;
+  const auto shot = folder.write("small.yaml", kSmallShot).string();
+  const std::vector<std::string> render = {"render", shot, "-f", "1001"};
+  ASSERT_EQ(lensplane(render).exit_code, 0);
+  for (const char* change :
+       {"lenses.near.mass=2e31 kg", "lenses.near.position=[1e6 m, 1 m, -4.36e8 m]",
+        "camera.resolution=[60, 42]", "camera.fov=3.01 deg", "camera.overscan=2",
+        "camera.rotation=[0.1 deg, 0 deg, 0 deg]", "fps=25", "trace.method=kishi",
+        "layers.earth.radius=6372 km", "layers.earth.centre=[1 m, 0 m, -1.09e9 m]",
+        "layers.earth.rotation=[0 deg, 1 deg, 0 deg]", "layers.earth.light=[0, 0, 1]",
+        "layers.earth.image=lensplane:textures/earth_day.jpg",
+        "layers.earth.image={file: lensplane:textures/earth_night.jpg, space: ACEScg}",
+        "output.image={type: float}", "output.image={compression: piz}", "output.locator=beside",
+        "colour.view=Un-tone-mapped", "colour.working=ACES2065-1"}) {
+    auto words = render;
+    words.insert(words.end(), {"--set", change});
+    const ProgramResult changed = lensplane(words);
+    EXPECT_EQ(changed.exit_code, 0) << change << changed.err;
+    EXPECT_EQ(changed.out.find("already done"), std::string::npos) << change;
+    EXPECT_EQ(lensplane(render).out.find("already done"), std::string::npos) << change;  // and back
+  }
+}
+
+TEST(CommandLine, ProxiesDoNotOverwriteTheFramesThatTheyAreOf) {
+  const TemporaryFolder folder;
+  const auto shot = folder.write("small.yaml", kSmallShot).string();
+  ASSERT_EQ(lensplane({"render", shot}).exit_code, 0);
+  const auto files = files_of(folder / "out");
+  ASSERT_EQ(lensplane({"render", shot, "--proxy", "2"}).exit_code, 0);
+  auto with_folder = files_of(folder / "out/proxy2");
+  EXPECT_EQ(with_folder.size(), files.size());
+  EXPECT_THAT(lensplane({"render", shot}).out, HasSubstr("already done"));
+}
+
+TEST(CommandLine, MapOfAShotWithoutMapsIsRefused) {
+  const TemporaryFolder folder;
+  const auto shot = folder.write("small.yaml", kSmallShot).string();
+  expect_refused(lensplane({"map", shot, "--set", "output.maps=none"}), 1, "nothing to do");
 }
 
 TEST(CommandLine, UnwritableOutputIsExitThree) {

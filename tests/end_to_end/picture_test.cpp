@@ -109,9 +109,8 @@ layers:
     centre: [0 m, 0 m, -1000 m]
     radius: 15 m
     rotation: {keys: {1: [0 deg, 0 deg, 0 deg], 2: [0 deg, -80 deg, 0 deg], 3: [30 deg, 100 deg, 0 deg]}, interpolate: step}
-    image: {file: lensplane:textures/earth_day.jpg, space: Raw}
+    image: {file: lensplane:textures/earth_day.jpg, space: ACEScg}
 trace: {method: kishi}
-colour: {working: Raw, view: Raw}
 output: {directory: ., image: {type: float}, review: none}
 )");
   ASSERT_EQ(lensplane({"render", shot.string(), "--quiet"}).err, "");
@@ -202,7 +201,31 @@ output: {directory: out, image: {type: float}}
   EXPECT_NEAR(read(folder / "out/plate.0006.exr").getchannel(4, 4, 0, 0), 0.6, 1e-6);
   const ProgramResult hole = lensplane({"render", shot.string(), "--quiet"});
   EXPECT_EQ(hole.exit_code, 2);
-  EXPECT_EQ(hole.err, (folder / "bg.0007.exr").string() + ": no such image\n");
+  EXPECT_EQ(hole.err, shot.string() + ":5:39: layers.bg.image: " + (folder / "bg.0007.exr").string() +
+                          ": no such image\n");
+}
+
+TEST(Picture, FrameBesideOneThatFailsIsWhole) {
+  // Two frames are in the making at once; the second has no plate.
+  const TemporaryFolder folder;
+  write_smooth_plate(folder / "bg.0001.exr", 64, 64);
+  const auto shot = folder.write("beside.yaml", R"(lensplane: 1
+shot: beside
+frames: 1-2
+camera: {resolution: [1500, 1000], fov: 20 deg}
+layers: [{name: bg, type: plate, image: bg.####.exr}]
+trace: {method: kishi}
+output: {directory: out}
+)");
+  EXPECT_EQ(lensplane({"render", shot.string(), "--quiet", "--threads", "2"}).exit_code, 2);
+  const OIIO::ImageBuf picture = read(folder / "out/beside.0001.exr"),
+                       map = read(folder / "out/beside.bg.map.0001.exr");
+  for (int y = 0; y < 1000; y += 37) {
+    for (int x = 0; x < 1500; x += 41) {
+      ASSERT_EQ(map.getchannel(x, y, 0, 2), 1.0F);
+      ASSERT_GT(picture.getchannel(x, y, 0, 1), 0.1F);
+    }
+  }
 }
 
 }  // namespace

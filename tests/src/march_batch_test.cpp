@@ -10,27 +10,10 @@
 #include <random>
 
 #include "src/march.h"
-#include "src/surfaces.h"
+#include "tests/src/film.h"
 
 namespace lensplane {
 namespace {
-
-struct Film {
-  alignas(64) BatchArray x, y;
-};
-
-Camera test_camera(double fov_rad) {
-  Camera camera;
-  camera.width = 1920;
-  camera.height = 1080;
-  camera.fov_rad = fov_rad;
-  return camera;
-}
-
-void random_film(std::mt19937& random, const Camera& camera, Film& film) {
-  std::uniform_real_distribution<double> x(0, camera.width), y(0, camera.height);
-  for (int i = 0; i < kBatchSize; ++i) film.x[i] = x(random), film.y[i] = y(random);
-}
 
 TEST(MarchBatch, AgreesWithTheReferenceThroughRandomPlanes) {
   std::mt19937 random(3);
@@ -83,6 +66,7 @@ TEST(MarchBatch, AgreesWithTheReferenceThroughRandomPlanes) {
 TEST(MarchBatch, OneBendAgreesToItsErrorBoundOverAllAngles) {
   const Camera camera = test_camera(0.5);
   std::mt19937 random(4);
+  int regular = 0;
   for (double alpha = 1e-18; alpha < kBatchAlpha; alpha *= 1.7) {
     Film film;
     random_film(random, camera, film);
@@ -93,12 +77,14 @@ TEST(MarchBatch, OneBendAgreesToItsErrorBoundOverAllAngles) {
     bend_rays(source, *rays);
     for (int i = 0; i < kBatchSize; ++i) {
       if (rays->irregular[i] != 0) continue;
+      ++regular;
       const Vec3 start = direction_from_pixel(camera, {film.x[i], film.y[i]});
       const RayPath path = march({{-1, {source}}}, Vec3(0), start);
       const Vec3 ours(rays->dir_x[i], rays->dir_y[i], rays->dir_z[i]);
       EXPECT_NEAR((ours - path.segments.back().direction).length(), 0, kBatchError) << alpha;
     }
   }
+  EXPECT_GT(regular, 75 * kBatchSize);
 }
 
 TEST(MarchBatch, MarksWhatItCannotDo) {
@@ -119,35 +105,6 @@ TEST(MarchBatch, MarksWhatItCannotDo) {
   EXPECT_TRUE(bend_centre({1, 0, 0}));                        // exactly on the source
   EXPECT_TRUE(bend_centre({1e-300, 1e-200, 0}));              // squares underflow
   EXPECT_TRUE(bend_centre({1, 1e200, 0}));                    // squares overflow
-}
-
-TEST(MarchBatch, EntersSpheresWhereTheReferenceDoes) {
-  const Camera camera = test_camera(1.0);
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> position(-10, 10), radius(0.01, 12);
-  int hits = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    const Vec3 centre(position(random), position(random), position(random) - 8);
-    const double r = radius(random);
-    const double end_z = trial % 2 ? -10.0 : -std::numeric_limits<double>::infinity();
-    Film film;
-    random_film(random, camera, film);
-    const auto rays = std::make_unique<RayBatch>();
-    start_rays(camera, film.x, film.y, *rays);
-    alignas(64) BatchArray entry;
-    enter_sphere(centre, r, end_z, *rays, entry);
-    for (int i = 0; i < kBatchSize; ++i) {
-      const Vec3 direction = direction_from_pixel(camera, {film.x[i], film.y[i]});
-      const double expected = sphere_entry(Vec3(0), direction, centre, r);
-      if (std::isfinite(expected) && expected <= end_z / direction.z) {
-        EXPECT_NEAR(entry[i], expected, 1e-12);
-        ++hits;
-      } else {
-        EXPECT_TRUE(std::isinf(entry[i]));
-      }
-    }
-  }
-  EXPECT_GT(hits, 1000);
 }
 
 }  // namespace

@@ -112,6 +112,22 @@ TEST(ColourConfig, KnowsWhatSpacesAreCalledElsewhere) {
   EXPECT_FALSE(builtin().chromaticities("ACEScct"));
 }
 
+TEST(ColourConfig, KnowsInWhichSpacesLightAddsUp) {
+  for (const char* space : {"ACEScg", "ACES2065-1", "Linear Rec.709 (sRGB)"})
+    EXPECT_TRUE(builtin().is_scene_linear(space));
+  for (const char* space : {"sRGB - Texture", "ACEScct", "Raw", "sRGB - Display", "none"}) {
+    EXPECT_FALSE(builtin().is_scene_linear(space)) << space;
+  }
+}
+
+TEST(ColourConfig, ConversionsAreKnownByWhatTheyCompute) {
+  EXPECT_EQ(builtin().conversion_id("ACEScg", "ACES2065-1"), builtin().conversion_id("acescg", "lin_ap0"));
+  EXPECT_NE(builtin().conversion_id("ACEScg", "ACES2065-1"),
+            builtin().conversion_id("ACEScct", "ACES2065-1"));
+  EXPECT_NE(builtin().view_id("ACEScg", "sRGB - Display", "ACES 1.0 - SDR Video"),
+            builtin().view_id("ACEScg", "sRGB - Display", "Un-tone-mapped"));
+}
+
 TEST(ColourConfig, ConfigsAreTakenInTheirOrderAndRefusedByName) {
   const TemporaryFolder folder;
   const auto own = folder.write("own.ocio",

@@ -24,7 +24,7 @@ Scene empty_scene(int width, int height, double fov_deg) {
 }
 
 Composite take_picture(const Scene& scene, const std::vector<SurfaceLook>& looks) {
-  return composite(Tracer(scene, plan_trace(scene, Method::ShinotsukaMakino)), scene, looks);
+  return composite(Tracer(scene, plan_trace(scene, Method::ShinotsukaMakino)), looks);
 }
 
 void expect_colour(const Rgba& got, const Rgba& expected) {

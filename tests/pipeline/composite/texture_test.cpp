@@ -92,6 +92,22 @@ TEST(Texture, OverscanIsUsedWhereTheDisplayWindowEnds) {
   EXPECT_EQ(texture.lookup(centre_of(7, 0, 4, 2))[3], 0);
 }
 
+TEST(Texture, CropIsTransparentWhereItHasNoPixels) {
+  Picture crop = numbered(4, 2);
+  crop.x = 2;
+  crop.y = 1;
+  crop.display_width = 8;
+  crop.display_height = 4;
+  for (const Wrap wrap : {Wrap::Black, Wrap::Clamp, Wrap::Mirror, Wrap::Repeat, Wrap::Globe}) {
+    const Texture texture(crop, wrap);
+    EXPECT_NEAR(texture.lookup(centre_of(3, 2, 8, 4))[0], 1, 1e-5);
+    EXPECT_EQ(texture.lookup(centre_of(0, 2, 8, 4)), (Rgba{0, 0, 0, 0}));
+    EXPECT_EQ(texture.lookup(centre_of(7, 0, 8, 4)), (Rgba{0, 0, 0, 0}));
+    EXPECT_EQ(texture.lookup(centre_of(-1, 2, 8, 4))[3], 0);
+  }
+  EXPECT_NEAR(Texture(crop, Wrap::Repeat).lookup(centre_of(11, 2, 8, 4))[0], 1, 1e-5);
+}
+
 TEST(Texture, FarAwayItIsStillFinite) {
   for (const Wrap wrap : {Wrap::Black, Wrap::Clamp, Wrap::Mirror, Wrap::Repeat, Wrap::Globe}) {
     const Texture texture(numbered(8, 4), wrap);

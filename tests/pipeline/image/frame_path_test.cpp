@@ -15,6 +15,8 @@ TEST(FramePath, FillsTheFrameNumberIn) {
   EXPECT_EQ(path_of_frame("bg%d.exr", 7), "bg7.exr");
   EXPECT_EQ(path_of_frame("a##/bg.###.exr", 7), "a##/bg.007.exr");
   EXPECT_EQ(path_of_frame("bg.exr", 7), "bg.exr");
+  EXPECT_EQ(path_of_frame("take#1/%d/bg.exr", 7), "take#1/%d/bg.exr");
+  EXPECT_EQ(path_of_frame("take#1/bg.%04d.exr", 7), "take#1/bg.0007.exr");
 }
 
 TEST(FramePath, KnowsSequences) {

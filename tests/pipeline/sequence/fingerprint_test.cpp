@@ -22,7 +22,7 @@ TEST(Fingerprint, IsTheSameForTheSameAndAnotherForEveryChange) {
   EXPECT_EQ(print_of(scene), print_of(seed_fig6(100)));
   EXPECT_EQ(print_of(scene).size(), 40U);
   std::set<std::string> prints = {print_of(scene), print_of(scene, Method::Kishi)};
-  std::vector<Scene> changed(9, scene);
+  std::vector<Scene> changed(14, scene);
   changed[0].camera.width = 101;
   changed[1].camera.overscan = 2;
   changed[2].camera.fov_rad *= 1 + 1e-15;
@@ -32,8 +32,14 @@ TEST(Fingerprint, IsTheSameForTheSameAndAnotherForEveryChange) {
   changed[6].lenses.pop_back();
   changed[7].surfaces.push_back(Plate{});
   changed[8].surfaces.push_back(LatLong{});
+  changed[9].camera.height = 101;
+  changed[10].lenses[2].position.z *= 1 + 1e-15;
+  auto sphere = [&](std::size_t i) -> Sphere& { return std::get<Sphere>(changed[i].surfaces[0]); };
+  sphere(11).centre.x = 1e-9;
+  sphere(12).radius *= 1 + 1e-15;
+  sphere(13).axes = basis_from_zxy({0, 0, 1e-9});
   for (const Scene& other : changed) prints.insert(print_of(other));
-  EXPECT_EQ(prints.size(), 11U);
+  EXPECT_EQ(prints.size(), 16U);
 }
 
 TEST(Fingerprint, TextsDoNotRunTogether) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "pipeline/sequence/texture_store.h"
+#include "pipeline/sequence/shot_colours.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ ColourConfig builtin() {
 }
 
 void write_grey(const std::filesystem::path& path, float value) {
-  write_png(path, Picture{1, 1, 0, 0, 1, 1, {{value, value, value, 1}}}, "");
+  write_png(path, Picture{1, 1, 0, 0, 1, 1, {{value, value, value, 1}}}, {});
 }
 
 TEST(TextureStore, KeepsStillsAndReadsSequencesByFrame) {
@@ -29,8 +30,8 @@ TEST(TextureStore, KeepsStillsAndReadsSequencesByFrame) {
   write_grey(folder / "bg.0001.png", 0);
   write_grey(folder / "bg.0002.png", 1);
   Shot shot = example_shot();
-  shot.layers[0].image.pattern = (folder / "earth.png").string();
-  shot.layers[1].image.pattern = (folder / "bg.####.png").string();
+  shot.layers[0].image.pattern.text = (folder / "earth.png").string();
+  shot.layers[1].image.pattern.text = (folder / "bg.####.png").string();
   const ColourConfig colours = builtin();
   TextureStore store(shot, colours);
   EXPECT_EQ(store.texture(0, 1), store.texture(0, 2));
@@ -39,7 +40,8 @@ TEST(TextureStore, KeepsStillsAndReadsSequencesByFrame) {
   EXPECT_NE(store.digest(1, 1), store.digest(1, 2));
   const Refusal missing = refusal_of([&] { store.texture(1, 3); });
   EXPECT_EQ(missing.code, ExitCode::BadInput);
-  EXPECT_EQ(missing.line, (folder / "bg.0003.png").string() + ": no such image");
+  EXPECT_EQ(missing.line, "example.yaml:20:12: layers.background.image: " +
+                              (folder / "bg.0003.png").string() + ": no such image");
   EXPECT_EQ(refusal_of([&] { store.digest(1, 3); }).code, ExitCode::BadInput);
 }
 
@@ -52,6 +54,8 @@ TEST(TextureStore, ColoursThatTheConfigDoesNotHaveAreRefusedWithTheirPlace) {
               HasSubstr("--set colour.working:1:1: colour.working: \"AcesCG2\" is no colour space of the "
                         "OCIO config; allowed: "
                         "sRGB - Display"));
+  EXPECT_THAT(line("colour.working=sRGB - Texture"),
+              HasSubstr("is not linear; allowed: scene-linear spaces"));
   EXPECT_THAT(line("colour.display=Laser"),
               HasSubstr("is no display of the OCIO config; allowed: sRGB - Display"));
   EXPECT_THAT(line("colour.view=Filmic"),

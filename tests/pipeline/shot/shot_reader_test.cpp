@@ -87,7 +87,9 @@ TEST(ShotReader, KeysOfEveryKindAreRead) {
                     "m]}, interpolate: smooth}",
                     "lenses.near.mass={keys: {1001: 0 kg, 1003: 2 kg}}",
                     "camera.fov={keys: {1001: 1 deg, 1002: 3 deg}, interpolate: step}",
-                    "layers.earth.light={keys: {1001: [1, 0, 0], 1003: [0, 0, 2]}}"});
+                    "layers.earth.light={keys: {1001: [1, 0, 0], 1003: [0, 0, 2]}}",
+                    "trace.tolerance={keys: {1001: 0.1 px, 1003: 0.05 px}}",
+                    "camera.shutter={open: {keys: {1001: -0.5, 1003: 0}}, close: 0.25}"});
   EXPECT_EQ(value_at(shot.lenses[0].position, 1002), Vec3(0, 0, -4e8));
   EXPECT_EQ(value_at(*std::get<SphereLayer>(shot.layers[0].kind).light, 1003), Vec3(0, 0, 1));
 }
@@ -134,6 +136,8 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
   const std::pair<const char*, const char*> mistakes[] = {
       {"camera.fov=0 deg", "not greater than 0"},
       {"camera.fov=180 deg", "less than 180 deg"},
+      {"camera.fov=1e-14 deg", "narrower than any picture"},
+      {"camera.resolution=[65536, 65536]", "more than 256 million pixels"},
       {"camera.fov={keys: {1001: 3 deg, 1002: 181 deg}}", "camera.fov.keys.1002"},
       {"camera.fov={keys: {}}", "no keys"},
       {"camera.fov={keys: {1001: 3 deg}, interpolate: cubic}", "allowed: linear, smooth, step"},
@@ -253,8 +257,8 @@ TEST(ShotReader, PathsAreRelativeToTheShotFile) {
   const Shot shot =
       read_shot(path, {"output.directory=../out", "layers.earth.image=lensplane:textures/earth_day.jpg"});
   EXPECT_EQ(shot.output.directory, (folder.path().parent_path() / "out"));
-  EXPECT_EQ(shot.layers[0].image.pattern, "lensplane:textures/earth_day.jpg");
-  EXPECT_EQ(shot.layers[1].image.pattern, (folder / "bg.####.exr").string());
+  EXPECT_EQ(shot.layers[0].image.pattern.text, "lensplane:textures/earth_day.jpg");
+  EXPECT_EQ(shot.layers[1].image.pattern.text, (folder / "bg.####.exr").string());
   EXPECT_EQ(read_shot(path).output.directory, folder / "renders/example");
 }
 

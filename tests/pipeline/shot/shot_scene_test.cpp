@@ -26,7 +26,7 @@ TEST(ShotScene, IsTheShotAtItsFrame) {
 
 TEST(ShotScene, FocalLengthAndFilmWidthMakeTheFieldOfView) {
   Shot shot = example_shot();
-  shot.camera.fov = FocalLength{Keyed<double>::constant(0.018), Keyed<double>::constant(0.036)};
+  shot.camera.fov = FocalLength{Keyed<double>::constant(0.018), Keyed<double>::constant(0.036), {}};
   EXPECT_DOUBLE_EQ(scene_at(shot, 1001).camera.fov_rad, kPi / 2);
 }
 
