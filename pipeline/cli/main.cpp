@@ -33,7 +33,9 @@ void run(const lensplane::Options& options) {
       return lensplane::run_check(options);
     case lensplane::Command::Render:
     case lensplane::Command::Map:
-      return lensplane::run_render(options, [] { return interrupt_requested != 0; });
+      std::signal(SIGINT, request_interrupt);
+      std::signal(SIGTERM, request_interrupt);
+      return lensplane::run_render(options, [] { return interrupt_requested.load(); });
   }
 }
 

@@ -201,7 +201,7 @@ output: {directory: out, image: {type: float}}
   EXPECT_NEAR(read(folder / "out/plate.0006.exr").getchannel(4, 4, 0, 0), 0.6, 1e-6);
   const ProgramResult hole = lensplane({"render", shot.string(), "--quiet"});
   EXPECT_EQ(hole.exit_code, 2);
-  EXPECT_EQ(hole.err, shot.string() + ":5:39: layers.bg.image: " + (folder / "bg.0007.exr").string() +
+  EXPECT_EQ(hole.err, shot.string() + ":5:41: layers.bg.image: " + (folder / "bg.0007.exr").string() +
                           ": no such image\n");
 }
 
