@@ -45,29 +45,30 @@ Rgba Texture::lookup(TextureCoordinates st) const {
   return colour;
 }
 
+/// The stored pixel at a position in the display window's coordinates; transparent black where nothing is
+/// stored.
+Rgba Texture::stored(int column, int row) const {
+  const int x = column - picture_.x;
+  const int y = row - picture_.y;
+  const bool inside = x >= 0 && x < picture_.width && y >= 0 && y < picture_.height;
+  return inside ? picture_.at(x, y) : Rgba{0, 0, 0, 0};
+}
+
 /// The pixel at a position in the display window's coordinates, which may lie outside of it.
 Rgba Texture::texel(int column, int row) const {
-  const auto stored = [this](int x, int y) -> Rgba {
-    x -= picture_.x;
-    y -= picture_.y;
-    const bool inside = x >= 0 && x < picture_.width && y >= 0 && y < picture_.height;
-    return inside ? picture_.at(x, y) : Rgba{0, 0, 0, 0};
-  };
   const int width = picture_.display_width;
   const int height = picture_.display_height;
-  const bool in_display = column >= 0 && column < width && row >= 0 && row < height;
-  const bool in_data = column >= picture_.x && column < picture_.x + picture_.width && row >= picture_.y &&
-                       row < picture_.y + picture_.height;
-  if (in_display || in_data) return stored(column, row);
+  if (column >= 0 && column < width && row >= 0 && row < height) return stored(column, row);
+  const int left = picture_.x, right = picture_.x + picture_.width - 1;
+  const int top = picture_.y, bottom = picture_.y + picture_.height - 1;
+  const bool in_overscan = column >= left && column <= right && row >= top && row <= bottom;
+  if (in_overscan) return stored(column, row);
   switch (wrap_) {
     case Wrap::Black:
       break;
-    case Wrap::Clamp: {
-      // To the nearest pixel of either window.
-      const int left = std::min(0, picture_.x), right = std::max(width, picture_.x + picture_.width) - 1;
-      const int top = std::min(0, picture_.y), bottom = std::max(height, picture_.y + picture_.height) - 1;
-      return stored(std::clamp(column, left, right), std::clamp(row, top, bottom));
-    }
+    case Wrap::Clamp:  // to the nearest pixel of either window
+      return stored(std::clamp(column, std::min(0, left), std::max(width - 1, right)),
+                    std::clamp(row, std::min(0, top), std::max(height - 1, bottom)));
     case Wrap::Mirror:
       return stored(mirrored(column, width), mirrored(row, height));
     case Wrap::Repeat:

@@ -31,6 +31,7 @@ class Texture {
   const Picture& picture() const { return picture_; }
 
  private:
+  Rgba stored(int column, int row) const;
   Rgba texel(int column, int row) const;
 
   Picture picture_;
