@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <cstdlib>
 
 #include "pipeline/sequence/shot_colours.h"
@@ -26,9 +27,11 @@ void run_check(const Options& options) {
   const std::vector<int> frames = frames_of(options, shot);
   for (const int frame : frames) scene_at(shot, frame);
   if (options.quiet) return;
-  fmt::print("{}: right: {} of {} x {}, {}, {}\n", shot.file, counted(frames.size(), "frame", "frames"),
-             shot.camera.width, shot.camera.height, counted(shot.lenses.size(), "lens", "lenses"),
-             counted(shot.layers.size(), "layer", "layers"));
+  const std::string line =
+      fmt::format("{}: right: {} of {} x {}, {}, {}\n", shot.file, counted(frames.size(), "frame", "frames"),
+                  shot.camera.width, shot.camera.height, counted(shot.lenses.size(), "lens", "lenses"),
+                  counted(shot.layers.size(), "layer", "layers"));
+  std::fputs(line.c_str(), stdout);
 }
 
 }  // namespace lensplane

@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -35,26 +38,39 @@ void run(const lensplane::Options& options) {
     case lensplane::Command::Map:
       std::signal(SIGINT, request_interrupt);
       std::signal(SIGTERM, request_interrupt);
+      std::signal(SIGHUP, request_interrupt);
       return lensplane::run_render(options, [] { return interrupt_requested.load(); });
   }
 }
 
+/// Where even this cannot be written there is no one left to tell.
 int fail(lensplane::ExitCode code, const std::string& line) {
-  fmt::print(stderr, "{}\n", lensplane::one_line(line));
+  std::fputs((lensplane::one_line(line) + "\n").c_str(), stderr);
   return static_cast<int>(code);
+}
+
+/// Done, unless what was printed got lost. A reader who went away has seen enough.
+int finish() {
+  if (std::fflush(stdout) == 0 || errno == EPIPE || errno == EBADF)
+    return static_cast<int>(lensplane::ExitCode::Done);
+  return fail(lensplane::ExitCode::BadOutput,
+              fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Errors of writing are told by what is written, not by signals that end the program.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     const lensplane::ParsedCommandLine command_line = lensplane::parse_command_line(argc, argv);
     if (command_line.text) {
-      fmt::print("{}", *command_line.text);
-      return 0;
+      std::fputs(command_line.text->c_str(), stdout);
+      return finish();
     }
     run(command_line.options);
-    return 0;
+    return finish();
   } catch (const lensplane::Failure& failure) {
     return fail(failure.code(), failure.what());
   } catch (const std::bad_alloc&) {

@@ -27,12 +27,18 @@ Examples:
 Exit codes: 0 done; 1 the shot or the command line is wrong; 2 an input is missing or broken;
             3 an output could not be written; 75 interrupted or worth another try.)";
 
+/// Refuses the empty text, which a script makes of a variable that is not set.
+std::string refuse_empty(const std::string& text) {
+  return text.empty() ? "it is empty" : "";
+}
+
 void add_common(CLI::App& command, Options& options) {
   command.add_option("SHOT", options.shot, "the shot file")->required();
   command
       .add_option("--set", options.settings, "put a value over the shot's: key.path=value; may be repeated")
       ->allow_extra_args(false);
-  command.add_option("-f,--frames", options.frames, "the frames: 1001, 1001-1048, 1001-1100x2, with commas");
+  command.add_option("-f,--frames", options.frames, "the frames: 1001, 1001-1048, 1001-1100x2, with commas")
+      ->check(refuse_empty);
   command.add_option("--proxy", options.proxy, "1/N of the resolution, in a folder proxyN of its own")
       ->check(CLI::Range(1, kMaxProxy));
   command.add_flag("--quiet", options.quiet, "say nothing but errors");
@@ -41,8 +47,10 @@ void add_common(CLI::App& command, Options& options) {
 void add_rendering(CLI::App& command, Options& options) {
   command.add_option("--threads", options.threads, "threads to use (else one for each core)")
       ->check(CLI::Range(1, kMaxThreads));
-  command.add_option("--output", options.output, "the folder for everything that is written");
-  command.add_option("--stats", options.stats, "write seconds and bytes of each phase to this JSON file");
+  command.add_option("--output", options.output, "the folder for everything that is written")
+      ->check(refuse_empty);
+  command.add_option("--stats", options.stats, "write seconds and bytes of each phase to this JSON file")
+      ->check(refuse_empty);
   command.add_flag("--redo", options.redo, "make again what is already done and right");
 }
 

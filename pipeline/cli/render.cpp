@@ -8,11 +8,13 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
 
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/failure.h"
+#include "pipeline/sequence/overwriting.h"
 #include "pipeline/sequence/progress.h"
 #include "pipeline/sequence/render_sequence.h"
 #include "pipeline/sequence/shot_colours.h"
@@ -43,6 +45,7 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
     throw Failure(ExitCode::BadShot,
                   shot.file + ": output.maps: none: there is nothing to do for lensplane map");
   }
+  refuse_overwriting(shot, frames, options.stats);
   const int threads = threads_of(options);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
@@ -68,7 +71,12 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
         fmt::format("lensplane: interrupted with {} of {} frames done; the same command goes on from there",
                     reports.size(), frames.size()));
   }
-  if (!options.quiet) fmt::print("{} frames in {}\n", frames.size(), shot.output.directory.string());
+  if (!options.quiet) {
+    std::fputs(fmt::format("{} {} in {}\n", frames.size(), frames.size() == 1 ? "frame" : "frames",
+                           shot.output.directory.string())
+                   .c_str(),
+               stdout);
+  }
 }
 
 }  // namespace lensplane

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -219,6 +220,8 @@ Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding&
     if (!has_alpha) pixel[3] = 1.0F;
     const bool light_without_cover = premultiplied && pixel[3] == 0.0F;
     if (!light_without_cover) premultiply(pixel);
+    for (float& channel : pixel)
+      channel = std::isnan(channel) ? 0.0F : std::clamp(channel, -kBrightest, kBrightest);
   });
   return picture;
 }

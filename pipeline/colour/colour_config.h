@@ -24,6 +24,9 @@ struct ImageEncoding {
   bool ignore_alpha = false;
 };
 
+/// The largest value of a channel: far beyond any light, and safe to add up and to interpolate.
+inline constexpr float kBrightest = 1e18F;
+
 class ColourConfig {
  public:
   /// The config of `path`, else that of `$OCIO` (`environment`, null or empty when not set), else the
@@ -55,7 +58,8 @@ class ColourConfig {
   /// Primaries and white of a linear space that has an interop_id.
   std::optional<Chromaticities> chromaticities(const std::string& space) const;
 
-  /// The picture in linear light in the working space, premultiplied. Runs in parallel.
+  /// The picture in linear light in the working space, premultiplied. What is not a number becomes 0, what is
+  /// brighter than kBrightest becomes that, so that one bad pixel stays one. Runs in parallel.
   Picture to_working(const EncodedImage& image, const ImageEncoding& encoding,
                      const std::string& working) const;
 

@@ -9,6 +9,8 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "pipeline/image/failure.h"
 
@@ -43,20 +45,25 @@ OIIO::TypeDesc oiio_type(SampleType type) {
   return OIIO::TypeDesc::FLOAT;
 }
 
-/// Which channels of the file are R, G, B; grey files give the same three times.
-std::array<int, 3> colour_channels(const OIIO::ImageSpec& spec) {
+/// Which channels of the file are R, G, B; grey files give the same three times. Nothing when there are none
+/// of these.
+std::optional<std::array<int, 3>> colour_channels(const OIIO::ImageInput& input) {
+  const OIIO::ImageSpec& spec = input.spec();
   const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
   if (*std::min_element(named.begin(), named.end()) >= 0) return named;
+  const int grey = spec.channelindex("Y");
+  if (grey >= 0) return std::array{grey, grey, grey};
+  // In EXR any other name is data; elsewhere it is a format's own name for colours.
   const int without_alpha = spec.nchannels - (spec.alpha_channel >= 0 ? 1 : 0);
-  if (without_alpha < 3) return {0, 0, 0};
-  return {0, 1, 2};
+  if (std::string_view(input.format_name()) == "openexr" || without_alpha == 0) return std::nullopt;
+  if (without_alpha < 3) return std::array{0, 0, 0};
+  return std::array{0, 1, 2};
 }
 
 /// Channels as the file has them to RGBA; `Sample` is as large as a sample, `opaque` is full alpha.
 template <class Sample>
-void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, Sample opaque,
-          EncodedImage& image) {
-  const auto colours = colour_channels(spec);
+void pack(const OIIO::ImageSpec& spec, const std::array<int, 3>& colours, const std::vector<std::byte>& file,
+          Sample opaque, EncodedImage& image) {
   const auto channels = static_cast<std::size_t>(spec.nchannels);
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   image.samples.resize(pixels * 4 * sizeof(Sample));
@@ -68,16 +75,17 @@ void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, Sampl
   }
 }
 
-void pack(const OIIO::ImageSpec& spec, const std::vector<std::byte>& file, EncodedImage& image) {
+void pack(const OIIO::ImageSpec& spec, const std::array<int, 3>& colours, const std::vector<std::byte>& file,
+          EncodedImage& image) {
   switch (image.type) {
     case SampleType::UInt8:
-      return pack<std::uint8_t>(spec, file, 0xff, image);
+      return pack<std::uint8_t>(spec, colours, file, 0xff, image);
     case SampleType::UInt16:
-      return pack<std::uint16_t>(spec, file, 0xffff, image);
+      return pack<std::uint16_t>(spec, colours, file, 0xffff, image);
     case SampleType::Half:
-      return pack<std::uint16_t>(spec, file, kHalfOne, image);
+      return pack<std::uint16_t>(spec, colours, file, kHalfOne, image);
     case SampleType::Float:
-      return pack<std::uint32_t>(spec, file, std::bit_cast<std::uint32_t>(1.0F), image);
+      return pack<std::uint32_t>(spec, colours, file, std::bit_cast<std::uint32_t>(1.0F), image);
   }
 }
 
@@ -94,6 +102,12 @@ EncodedImage read_image(const std::filesystem::path& path) {
   const auto input = OIIO::ImageInput::open(path.string(), &as_stored);
   if (!input) refuse(path, OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
+  const auto colours = colour_channels(*input);
+  if (!colours) refuse(path, "it has no channels R, G, B or Y");
+  if (spec.image_pixels() > kMaxImagePixels) {
+    refuse(path, fmt::format("{} x {} pixels; allowed: up to {} million", spec.width, spec.height,
+                             kMaxImagePixels >> 20));
+  }
   EncodedImage image{.width = spec.width,
                      .height = spec.height,
                      .x = spec.x - spec.full_x,
@@ -108,7 +122,7 @@ EncodedImage read_image(const std::filesystem::path& path) {
                               size_of(image.type));
   if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(image.type), file.data()))
     refuse(path, input->geterror());
-  pack(spec, file, image);
+  pack(spec, *colours, file, image);
   return image;
 }
 

@@ -10,6 +10,9 @@
 
 namespace lensplane {
 
+/// Larger images are refused: they would not fit into memory as they are worked with.
+inline constexpr std::size_t kMaxImagePixels = std::size_t{1} << 29;
+
 enum class SampleType { UInt8, UInt16, Half, Float };
 
 /// Size of one sample in bytes.

@@ -32,13 +32,13 @@ void Progress::frame_done(const FrameReport& report) {
   rays_ += report.rays;
   if (quiet_) return;
   clear_status();
-  fmt::print("{}\n", line_of(report));
+  std::fputs((line_of(report) + "\n").c_str(), stdout);
   std::fflush(stdout);
   show_status();
 }
 
 void Progress::clear_status() const {
-  if (terminal_) fmt::print(stderr, "\r\033[K");
+  if (terminal_) std::fputs("\r\033[K", stderr);
 }
 
 void Progress::show_status() const {
@@ -51,7 +51,7 @@ void Progress::show_status() const {
     status += fmt::format(", {:.1f} million rays/s, {} left", static_cast<double>(rays_) / elapsed / 1e6,
                           minutes_and_seconds(left));
   }
-  fmt::print(stderr, "{}", status);
+  std::fputs(status.c_str(), stderr);
   std::fflush(stderr);
 }
 

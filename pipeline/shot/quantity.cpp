@@ -119,6 +119,10 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   if (!result.error.empty()) return result;
   if (!std::isfinite(result.value))
     return wrong(fmt::format("{} is not finite; {}", in_quotes(text), needed(dimension)));
+  if (std::abs(result.value) > kLargestQuantity) {
+    return wrong(
+        fmt::format("{} is too large; {}, up to 1e100 in SI units", in_quotes(text), needed(dimension)));
+  }
   if (result.value != 0 ? !std::isnormal(result.value) : number != 0) {
     return wrong(fmt::format("{} is too small to be told from zero; {}", in_quotes(text), needed(dimension)));
   }

@@ -24,6 +24,9 @@ std::string_view noun_of(Dimension dimension);
 /// The units of a dimension, for error messages: "m, km, AU, ...".
 std::string units_of(Dimension dimension);
 
+/// Beyond any universe, and small enough for squares of lengths.
+inline constexpr double kLargestQuantity = 1e100;
+
 /// The value of `text` in the units given above, or what is wrong with it.
 struct ParsedQuantity {
   double value = 0;

@@ -61,6 +61,8 @@ void apply_setting(const std::string& setting, YamlNode& root) {
   const std::string text = setting.substr(equals + 1);
   const YamlNode value = parse_yaml(text.empty() ? "\"\"" : text, source);
 
+  if (path.empty() || path.ends_with('.'))
+    refuse(setting, "an empty key; write key.path=value, like camera.fov=2 deg");
   YamlNode* node = &root;
   std::istringstream parts(path);
   int depth = 0;
@@ -68,7 +70,6 @@ void apply_setting(const std::string& setting, YamlNode& root) {
     if (++depth > kMaxYamlDepth) refuse(setting, fmt::format("more than {} levels deep", kMaxYamlDepth));
     node = &descend(*node, part, location, setting);
   }
-  if (node == &root) refuse(setting, "an empty key; write key.path=value, like camera.fov=2 deg");
   *node = value;
 }
 

@@ -57,7 +57,10 @@ Rational read_fps(const Value& value) {
   const auto top = std::from_chars(text.data(), end, fps.numerator);
   const auto bottom = std::from_chars(text.data() + slash + 1, end, fps.denominator);
   const bool whole = top.ptr == text.data() + slash && bottom.ptr == end;
-  if (!whole || fps.numerator < 1 || fps.denominator < 1) value.refuse(in_quotes(text) + "; " + kAllowed);
+  const bool in_range =
+      top.ec == std::errc() && bottom.ec == std::errc() && fps.numerator > 0 && fps.denominator > 0;
+  const double rate = static_cast<double>(fps.numerator) / fps.denominator;
+  if (!whole || !in_range || rate < 1e-3 || rate > 1e5) value.refuse(in_quotes(text) + "; " + kAllowed);
   return fps;
 }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -220,6 +221,57 @@ TEST(CommandLine, ProxiesDoNotOverwriteTheFramesThatTheyAreOf) {
   auto with_folder = files_of(folder / "out/proxy2");
   EXPECT_EQ(with_folder.size(), files.size());
   EXPECT_THAT(lensplane({"render", shot}).out, HasSubstr("already done"));
+}
+
+TEST(CommandLine, InputsAndDevicesAreNeverOverwritten) {
+  const TemporaryFolder folder;
+  const auto shot = folder.write("small.yaml", kSmallShot).string();
+  const auto plate = folder.write("bg.1001.exr", "a plate").string();
+  const auto with_plate = [&](const std::string& name) {
+    return lensplane({"render", shot, "-f", "1001", "--output", folder.path().string(), "--set",
+                      "shot=" + name, "--set",
+                      "layers.earth={name: earth, type: plate, image: bg.####.exr}"});
+  };
+  expect_refused(with_plate("bg"), 1, "bg.1001.exr: the shot reads this file and would overwrite it");
+  EXPECT_EQ(contents_of(plate), "a plate");
+  expect_refused(lensplane({"render", shot, "--stats", shot}), 1,
+                 "the shot reads this file and --stats would overwrite it");
+  expect_refused(lensplane({"render", shot, "--stats", (folder / "out/small.1001.exr").string()}), 1,
+                 "the shot writes");
+  expect_refused(lensplane({"render", shot, "--quiet", "--stats", (folder.path()).string()}), 3,
+                 "it is not a file");
+}
+
+TEST(CommandLine, LostOutputIsAnError) {
+  const TemporaryFolder folder;
+  const auto shot = folder.write("small.yaml", kSmallShot).string();
+  const TemporaryFolder streams;
+  std::filesystem::create_symlink("/dev/full", streams / "out");
+  EXPECT_EQ(exit_code_of(start_program({LENSPLANE_PROGRAM, "check", shot}, streams)), 3);
+  EXPECT_THAT(contents_of(streams / "err"), HasSubstr("standard output: cannot be written"));
+  // With nowhere to say what is wrong the exit code still does.
+  const TemporaryFolder deaf;
+  std::filesystem::create_symlink("/dev/full", deaf / "err");
+  EXPECT_EQ(exit_code_of(start_program({LENSPLANE_PROGRAM, "check", "none.yaml"}, deaf)), 2);
+}
+
+TEST(CommandLine, BadPixelsStayWhereTheyAre) {
+  // A plate with a pixel that is no number and one that is infinite.
+  const TemporaryFolder folder;
+  std::vector<float> samples(16 * 16, 0.5F);
+  samples[40] = std::numeric_limits<float>::quiet_NaN();
+  samples[200] = std::numeric_limits<float>::infinity();
+  write_exr(folder / "bad.exr", {16, 16, 0},
+            {{"R", samples.data()}, {"G", samples.data()}, {"B", samples.data()}},
+            {PixelType::Float, ExrCompression::Zip}, {});
+  const auto shot = folder.write("small.yaml", kSmallShot).string();
+  ASSERT_EQ(lensplane({"render", shot, "-f", "1001", "--set", "output.image={type: float}", "--set",
+                       "layers.earth={name: earth, type: plate, image: bad.exr}"})
+                .err,
+            "");
+  const ProgramResult stats = run_program({"oiiotool", "--stats", (folder / "out/small.1001.exr").string()});
+  EXPECT_THAT(stats.out, HasSubstr("Stats NanCount: 0 0 0 0"));
+  EXPECT_THAT(stats.out, HasSubstr("Stats InfCount: 0 0 0 0"));
 }
 
 TEST(CommandLine, MapOfAShotWithoutMapsIsRefused) {

@@ -49,11 +49,15 @@ inline pid_t start_program(const std::vector<std::string>& words, const Temporar
   return process;
 }
 
-inline ProgramResult wait_for(pid_t process, const TemporaryFolder& folder) {
+inline int exit_code_of(pid_t process) {
   int status = 0;
   ::waitpid(process, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents_of(folder / "out"),
-          contents_of(folder / "err")};
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+inline ProgramResult wait_for(pid_t process, const TemporaryFolder& folder) {
+  const int exit_code = exit_code_of(process);
+  return {exit_code, contents_of(folder / "out"), contents_of(folder / "err")};
 }
 
 inline ProgramResult run_program(const std::vector<std::string>& words,

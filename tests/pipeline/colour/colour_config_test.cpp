@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "tests/pipeline/expect_failure.h"
 #include "tests/pipeline/temporary_folder.h"
@@ -95,6 +97,26 @@ TEST(ColourConfig, LightWithoutCoverKeepsItsColour) {
   const Rgba got = builtin().to_working(image, {"ACEScg", std::nullopt, false}, "ACEScg").pixels[0];
   EXPECT_EQ(got[3], 0.0F);
   EXPECT_NEAR(got[0], 2, kColourError);
+}
+
+TEST(ColourConfig, WhatIsNoNumberOrTooBrightStaysFinite) {
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  for (const std::array<float, 4>& bad : {std::array<float, 4>{nan, 0, 0, 1},
+                                          {inf, 1, 1, 1},
+                                          {1, 1, -inf, 1},
+                                          {1, 1, 1, nan},
+                                          {-3e38F, -3e38F, -3e38F, 0.5F},
+                                          {1e38F, 1e38F, 1e38F, 1e-38F}}) {
+    for (const bool has_alpha : {false, true}) {
+      for (const char* space : {"ACEScg", "sRGB - Texture"}) {
+        const auto image = pixel<float>(SampleType::Float, bad, has_alpha, true);
+        for (const float channel :
+             builtin().to_working(image, {space, std::nullopt, false}, "ACEScg").pixels[0]) {
+          EXPECT_TRUE(std::isfinite(channel) && std::abs(channel) <= kBrightest);
+        }
+      }
+    }
+  }
 }
 
 TEST(ColourConfig, FilesGetTheirSpacesByTheRules) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <sstream>
@@ -46,6 +47,19 @@ TEST(AtomicFile, RefusesPlacesWhereNothingCanBeWritten) {
   EXPECT_EQ(refusal_of([&] { write_atomically(folder / "folder", std::string("y")); }).code,
             ExitCode::BadOutput);
   EXPECT_EQ(files_in(folder.path()), 2U);  // nothing half-written beside them
+}
+
+TEST(AtomicFile, FollowsLinksAndLeavesDevicesAlone) {
+  const TemporaryFolder folder;
+  folder.write("real", "old");
+  std::filesystem::create_symlink("real", folder / "link");
+  write_atomically(folder / "link", std::string("new"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(contents(folder / "real"), "new");
+  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
+  EXPECT_EQ(refusal_of([&] { write_atomically(folder / "fifo", std::string("x")); }).line,
+            (folder / "fifo").string() + ": cannot be written: it is not a file");
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "fifo"));
 }
 
 TEST(AtomicFile, FullDiskLeavesTheOldFileAndNoOther) {

@@ -83,7 +83,7 @@ TEST(ExrWriter, WorldToCameraTurnsTheWorldIntoCameraAxes) {
 TEST(ExrWriter, OverscanLiesAroundTheDisplayWindow) {
   const TemporaryFolder folder;
   const auto samples = ramp(8 * 7);
-  write_exr(folder / "a.exr", {4, 3, 2}, {{"R", samples.data()}}, {PixelType::Float, ExrCompression::Zip},
+  write_exr(folder / "a.exr", {4, 3, 2}, {{"Y", samples.data()}}, {PixelType::Float, ExrCompression::Zip},
             example_header());
   const EncodedImage image = read_image(folder / "a.exr");
   EXPECT_EQ(image.width, 8);

@@ -76,6 +76,15 @@ TEST(ImageReader, RefusesWhatIsMissingOrBrokenByName) {
   EXPECT_THAT(line_and_code(folder.write("odd.xyz", "?")).line,
               HasSubstr("odd.xyz: cannot be read as an image: "));
 
+  OIIO::ImageSpec depth(1, 1, 1, OIIO::TypeDesc::FLOAT);
+  depth.channelnames = {"Z"};
+  write<float>(folder / "z.exr", depth, {1});
+  EXPECT_THAT(line_and_code(folder / "z.exr").line, HasSubstr("it has no channels R, G, B or Y"));
+  // A header that promises more than there is.
+  const char header[] = "P6 60000 60000 255\n";
+  EXPECT_THAT(line_and_code(folder.write("large.ppm", header)).line,
+              HasSubstr("60000 x 60000 pixels; allowed: up to 512"));
+
   OIIO::ImageSpec spec(64, 64, 3, OIIO::TypeDesc::HALF);
   write<std::uint16_t>(folder / "cut.exr", spec, std::vector<std::uint16_t>(64 * 64 * 3, 0x3c01));
   std::filesystem::resize_file(folder / "cut.exr", std::filesystem::file_size(folder / "cut.exr") / 2);

@@ -65,7 +65,8 @@ TEST(Quantity, SaysWhatIsWrongAndWhatIsAllowed) {
 }
 
 TEST(Quantity, RefusesWhatIsNoOrdinaryNumber) {
-  for (const char* text : {"nan m", "NaN m", "inf m", "-inf m", "infinity m", "1e999 m", "1e308 Mpc"}) {
+  for (const char* text :
+       {"nan m", "NaN m", "inf m", "-inf m", "infinity m", "1e999 m", "1e308 Mpc", "1e101 m", "-1e101 m"}) {
     EXPECT_NE(error(text, Dimension::Length), "") << text;
   }
   EXPECT_THAT(error("nan m", Dimension::Length), HasSubstr("is not finite"));

@@ -41,6 +41,7 @@ TEST(Settings, SayWhatIsWrong) {
       "--set \"lenses.middle.mass=1 kg\": \"middle\" is neither a name in this list nor a number in it");
   EXPECT_NE(line("=3"), "");
   EXPECT_NE(line("a..b=3"), "");
+  EXPECT_NE(line("camera.fov.=3 deg"), "");
   EXPECT_NE(line("camera.fov=[1, 2"), "");
 }
 

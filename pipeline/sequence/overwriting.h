@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Outputs that would overwrite what they are made from.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/shot/shot.h"
+
+namespace lensplane {
+
+/// Throws Failure (BadShot) when one of the files that `frames` of the shot will write, or `statistics`
+/// (empty: none), is the shot file, its OCIO config, or an image of its layers, or when `statistics` is one
+/// of the other outputs.
+void refuse_overwriting(const Shot& shot, const std::vector<int>& frames, const std::string& statistics);
+
+}  // namespace lensplane
