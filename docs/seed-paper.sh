@@ -15,12 +15,12 @@ done
 
 # FIGURE FRAME NAME A_OF_THE_PAPER SECONDS_OF_THE_PAPER: one row of the table.
 row() {
-  jq -r --argjson frame "$2" --arg name "$3" --arg paper_a "$4" --arg paper_time "$5" '
-    def rounded(n): . * pow(10; n) | round / pow(10; n);
+  local a seconds light bytes
+  read -r a seconds light bytes < <(jq -r --argjson frame "$2" '
     .frames[] | select(.frame == $frame) |
-    "| \($name) | \($paper_a) | \(.amplification.earth | rounded(3)) | \($paper_time) | \(.seconds | rounded(2)) | " +
-    "\(.phases.trace.seconds + .phases.composite.seconds | rounded(2)) | \(.phases.write.bytes / 1024 | round) |"
-  ' "$renders/seed-fig$1.json"
+    [.amplification.earth, .seconds, .phases.trace.seconds + .phases.composite.seconds, .phases.write.bytes] | @tsv
+  ' "$renders/seed-fig$1.json")
+  printf '| %s | %s | %.3f | %s | %.2f | %.2f | %d |\n' "$3" "$4" "$a" "$5" "$seconds" "$light" $((bytes / 1024))
 }
 table() {
   echo "| figure | A, paper | A, ours | seconds, paper | seconds, ours | of which light | KiB, ours |"
@@ -31,10 +31,7 @@ table() {
   row 8 1002 "8: moving, 2" 2.67 ""
   row 8 1003 "8: moving, 3" 3.89 ""
   row 8 1004 "8: moving, 4" 4.34 ""
-  jq -r 'def rounded(n): . * pow(10; n) | round / pow(10; n);
-    "| 8: all four | | | 10.11 | \(.seconds | rounded(2)) | " +
-    "\(.phases.trace.seconds + .phases.composite.seconds | rounded(2)) | \(.phases.write.bytes / 1024 | round) |"
-  ' "$renders/seed-fig8.json"
+  printf '| 8: all four | | | 10.11 | %.2f | | |\n' "$(jq .seconds "$renders/seed-fig8.json")"
 }
 
 document=docs/seed-paper.md

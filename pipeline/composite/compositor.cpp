@@ -126,11 +126,20 @@ Rgba see(const TraceBatch& batch, std::size_t i, const std::vector<SurfaceLook>&
   return colour;
 }
 
+/// Whether a ray of the batch's pixel number `pixel` meets any surface.
+bool meets_anything(const TraceBatch& batch, int pixel) {
+  return std::any_of(batch.surfaces.begin(), batch.surfaces.end(), [pixel](const SurfaceBatch& surface) {
+    const auto first = surface.outcome.begin() + pixel * kRaysPerPixel;
+    return std::find(first, first + kRaysPerPixel, Outcome::Hit) != first + kRaysPerPixel;
+  });
+}
+
 /// The mean of the rays of the batch's pixel number `pixel`. `order` holds the surfaces, farthest first where
 /// a ray meets two at the same distance.
 Rgba average(const TraceBatch& batch, int pixel, const std::vector<SurfaceLook>& looks,
              const std::vector<std::size_t>& order) {
   Rgba sum{0, 0, 0, 0};
+  if (!meets_anything(batch, pixel)) return sum;
   std::vector<std::size_t> by_depth = order;
   for (int ray = 0; ray < kRaysPerPixel; ++ray) {
     const auto i = static_cast<std::size_t>(pixel * kRaysPerPixel + ray);
