@@ -110,8 +110,8 @@ TEST(ColourConfig, WhatIsNoNumberOrTooBrightStaysFinite) {
     for (const bool has_alpha : {false, true}) {
       for (const char* space : {"ACEScg", "sRGB - Texture"}) {
         const auto image = pixel<float>(SampleType::Float, bad, has_alpha, true);
-        for (const float channel :
-             builtin().to_working(image, {space, std::nullopt, false}, "ACEScg").pixels[0]) {
+        const Rgba got = builtin().to_working(image, {space, std::nullopt, false}, "ACEScg").pixels[0];
+        for (const float channel : got) {
           EXPECT_TRUE(std::isfinite(channel) && std::abs(channel) <= kBrightest);
         }
       }
