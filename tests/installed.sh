@@ -5,8 +5,8 @@ set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cmake --install "$1" --prefix "$folder/prefix" >/dev/null
-mkdir "$folder/work"
-cd "$folder/work"
+mkdir "$folder/own"
+cd "$folder/own"
 cat >own.yaml <<'SHOT'
 lensplane: 1
 shot: own
