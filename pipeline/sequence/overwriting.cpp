@@ -8,7 +8,7 @@
 #include "pipeline/image/failure.h"
 #include "pipeline/image/frame_path.h"
 #include "pipeline/image/shipped.h"
-#include "pipeline/sequence/render_frame.h"
+#include "pipeline/sequence/output_paths.h"
 
 namespace lensplane {
 namespace {

@@ -145,8 +145,8 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not
   if (const auto overscan = camera.find("overscan")) track.overscan = read_overscan(*overscan, not_yet);
   const double pixels = (track.width + 2.0 * track.overscan) * (track.height + 2.0 * track.overscan);
   if (pixels > kMaxPixels) {
-    camera.require("resolution", "")
-        .refuse(fmt::format("more than {} million pixels with overscan", kMaxPixels >> 20));
+    camera.find("resolution")
+        ->refuse(fmt::format("more than {} million pixels with overscan", kMaxPixels >> 20));
   }
   if (const auto shutter = camera.find("shutter")) check_shutter(*shutter, not_yet);
   return track;

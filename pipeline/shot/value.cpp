@@ -43,8 +43,7 @@ void Value::only_keys(std::initializer_list<std::string_view> allowed) const {
         fmt::format("{} where a map is needed, with the keys {}", noun_of(node_->kind), comma_list(allowed)));
   for (const YamlKey& key : node_->keys) {
     if (std::find(allowed.begin(), allowed.end(), key.name) != allowed.end()) continue;
-    lensplane::refuse(key.location,
-                      join_key(key_, in_quotes(key.name).substr(1, in_quotes(key.name).size() - 2)),
+    lensplane::refuse(key.location, join_key(key_, key.name),
                       fmt::format("unknown key; allowed: {}", comma_list(allowed)));
   }
 }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/sequence/output_paths.h"
+
+#include <fmt/format.h>
+
+namespace lensplane {
+
+std::filesystem::path picture_path(const Shot& shot, int frame) {
+  return shot.output.directory / fmt::format("{}.{:04}.exr", shot.name, frame);
+}
+
+std::filesystem::path map_path(const Shot& shot, const std::string& layer, int frame) {
+  return shot.output.directory / fmt::format("{}.{}.map.{:04}.exr", shot.name, layer, frame);
+}
+
+std::filesystem::path review_path(const Shot& shot, int frame) {
+  return shot.output.directory / fmt::format("{}.review.{:04}.png", shot.name, frame);
+}
+
+}  // namespace lensplane

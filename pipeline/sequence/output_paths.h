@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the files of a frame are called.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "pipeline/shot/shot.h"
+
+namespace lensplane {
+
+std::filesystem::path picture_path(const Shot& shot, int frame);
+std::filesystem::path map_path(const Shot& shot, const std::string& layer, int frame);
+std::filesystem::path review_path(const Shot& shot, int frame);
+
+}  // namespace lensplane
