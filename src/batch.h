@@ -3,16 +3,57 @@
 // Batches: many rays side by side in arrays of a fixed size, so that each step is a plain loop without
 // branches which the compiler turns into vector instructions.
 //
-// Kernels use additions, multiplications, divisions and square roots only, none of them contracted: every
-// instruction set gives the same bits, and a ray's result does not depend on its neighbours.
+// Kernels use additions, multiplications, divisions, square roots and operations on bits only, none of them
+// contracted: every instruction set gives the same bits, and a ray's result does not depend on its
+// neighbours.
 
 #pragma once
 
+#include "src/dual.h"
+
 namespace lensplane {
 
-inline constexpr int kBatchSize = 256;
+/// Small enough that all that a kernel touches stays in the nearest cache.
+inline constexpr int kBatchSize = 128;
 
 using BatchArray = double[kBatchSize];
+
+/// A number of either kind for each ray of a batch.
+template <class Number>
+struct Lane;
+
+template <>
+struct Lane<double> {
+  alignas(64) BatchArray v;
+
+  [[gnu::always_inline]] double get(int i) const { return v[i]; }
+  [[gnu::always_inline]] void set(int i, double a) { v[i] = a; }
+};
+
+template <>
+struct Lane<Dual> {
+  alignas(64) BatchArray v, dx, dy;
+
+  [[gnu::always_inline]] Dual get(int i) const { return {v[i], dx[i], dy[i]}; }
+  [[gnu::always_inline]] void set(int i, const Dual& a) {
+    v[i] = a.v;
+    dx[i] = a.dx;
+    dy[i] = a.dy;
+  }
+};
+
+/// A vector for each ray of a batch.
+template <class Number>
+struct VectorLane {
+  Lane<Number> x, y, z;
+
+  [[gnu::always_inline]] Vector<Number> get(int i) const { return {x.get(i), y.get(i), z.get(i)}; }
+  [[gnu::always_inline]] void set(int i, const Vector<Number>& a) {
+    x.set(i, a.x);
+    y.set(i, a.y);
+    z.set(i, a.z);
+  }
+};
 
 }  // namespace lensplane
 

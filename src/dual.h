@@ -20,6 +20,12 @@ struct Dual {
   double dy = 0;  // its derivative by film y, per pixel
 
   constexpr Dual() = default;
+  // Written out so that compilers copy three numbers, not one object: loops over batches depend on it.
+  constexpr Dual(const Dual& a) : v(a.v), dx(a.dx), dy(a.dy) {}
+  constexpr Dual& operator=(const Dual& a) {
+    v = a.v, dx = a.dx, dy = a.dy;
+    return *this;
+  }
   constexpr Dual(double value) : v(value) {}  // a constant
   constexpr Dual(double value, double by_x, double by_y) : v(value), dx(by_x), dy(by_y) {}
 
@@ -39,6 +45,12 @@ constexpr Dual operator-(const Dual& a, const Dual& b) {
 constexpr Dual operator*(const Dual& a, const Dual& b) {
   return {a.v * b.v, a.v * b.dx + a.dx * b.v, a.v * b.dy + a.dy * b.v};
 }
+constexpr Dual operator+(double a, const Dual& b) {
+  return {a + b.v, b.dx, b.dy};
+}
+constexpr Dual operator-(double a, const Dual& b) {
+  return {a - b.v, -b.dx, -b.dy};
+}
 constexpr Dual operator*(double a, const Dual& b) {
   return {a * b.v, a * b.dx, a * b.dy};
 }
@@ -57,6 +69,12 @@ constexpr double chained(double, double f, double) {
 constexpr Dual reciprocal(const Dual& a) {
   const double r = 1.0 / a.v;
   return chained(a, r, -r * r);
+}
+constexpr double reciprocal(double a) {
+  return 1.0 / a;
+}
+constexpr Dual operator/(double a, const Dual& b) {
+  return a * reciprocal(b);
 }
 constexpr Dual operator/(const Dual& a, const Dual& b) {
   return a * reciprocal(b);
@@ -89,6 +107,18 @@ inline Dual atan2(const Dual& y, const Dual& x) {
   return {std::atan2(y.v, x.v), by_y * y.dx + by_x * x.dx, by_y * y.dy + by_x * x.dy};
 }
 
+inline double sqrt(double a) {
+  return std::sqrt(a);
+}
+
+/// `a` where `condition` holds, else `b`: without a branch, so that loops over batches stay loops.
+constexpr double select(bool condition, double a, double b) {
+  return condition ? a : b;
+}
+constexpr Dual select(bool condition, const Dual& a, const Dual& b) {
+  return {condition ? a.v : b.v, condition ? a.dx : b.dx, condition ? a.dy : b.dy};
+}
+
 /// A vector of numbers of either kind.
 template <class Number>
 using Vector = Imath::Vec3<Number>;
@@ -99,6 +129,18 @@ inline Imath::V3d value_of(const DualVec3& a) {
 }
 inline const Imath::V3d& value_of(const Imath::V3d& a) {
   return a;
+}
+
+/// The length of a vector; unlike a root of a sum of squares it neither overflows nor underflows. Its
+/// derivatives at zero are zero.
+inline double length(const Imath::V3d& a) {
+  return std::hypot(a.x, a.y, a.z);
+}
+inline Dual length(const DualVec3& a) {
+  const double l = std::hypot(a.x.v, a.y.v, a.z.v);
+  if (l == 0.0) return 0.0;
+  const Imath::V3d u = value_of(a) / l;
+  return {l, u.x * a.x.dx + u.y * a.y.dx + u.z * a.z.dx, u.x * a.x.dy + u.y * a.y.dy + u.z * a.z.dy};
 }
 
 /// `a` with derivatives `by_x` and `by_y`.

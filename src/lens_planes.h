@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lens planes: the masses of a scene, sorted into planes parallel to the screen.
+// Lens planes: the masses of a scene, sorted into planes.
 //
-// Everything here is in camera axes, relative to the camera: a plane in front of it has z < 0. Masses of zero
-// are left out, so that they change nothing, bit for bit.
+// Everything here is in camera axes, relative to the camera. For a perspective camera the planes are parallel
+// to its screen. Where there is no flat screen, each source has its own plane, perpendicular to its
+// direction. Masses of zero are left out, so that they change nothing, bit for bit.
 
 #pragma once
 
@@ -16,25 +17,30 @@ namespace lensplane {
 
 /// A point mass on a lens plane.
 struct Source {
-  double m;     // geometric mass, metres, > 0
-  double x, y;  // metres, camera axes
+  double m;       // geometric mass, metres, > 0
+  Vec3 position;  // metres, camera axes
 };
 
-/// A plane z = const and its sources, in the order in which the scene lists them: rays are bent in this
-/// order.
+/// The plane normal . x = distance and its sources.
 struct LensPlane {
-  double z;  // metres, camera axes
-  std::vector<Source> sources;
+  Vec3 normal;                  // unit vector, away from the camera: (0, 0, -1) for a flat screen
+  double distance;              // metres; negative behind a flat screen's camera
+  std::vector<Source> sources;  // in the order in which the scene lists them; by `planes`, see below
 };
 
 /// Sources whose depths differ by no more than this share of their distance from the camera stand on one
 /// plane: turning a plane of sources from world to camera axes rounds their depths by less.
 inline constexpr double kEqualDepth = 1e-12;
 
-/// The planes of `scene` by `method`, from the nearest in front of the camera to the farthest, preceded by
-/// those behind and beside it (which only light that has turned back can reach). By Kishi's method there is
-/// one plane: the sources in front of the camera, moved along its axis to their mass-weighted mean depth.
-/// Sources beside and behind the camera do not count there.
+/// By `planes`, sources nearer to one another than this share of their joint geometric mass are one body, at
+/// their centre of mass: what bends light then is their sum. Farther ones add up their bends.
+inline constexpr double kOneBody = 1e-6;
+
+/// The planes of `scene` by `method`, by rising distance: those behind a flat screen's camera (which only
+/// light that has turned back can reach) come first. By Kishi's method there is one plane: the sources in
+/// front of the camera, moved along its axis to their mass-weighted mean depth; sources beside and behind the
+/// camera do not count there, and without a flat screen each source keeps its own plane.
+/// By `planes` the order of the sources in the scene has no influence: they are sorted by their positions.
 std::vector<LensPlane> lens_planes(const Scene& scene, Method method);
 
 }  // namespace lensplane

@@ -2,6 +2,7 @@
 
 #include "src/march.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/deflection.h"
@@ -9,68 +10,138 @@
 namespace lensplane {
 namespace {
 
-double length_of(const Vec3& v) {
-  return std::hypot(v.x, v.y, v.z);  // unlike a sum of squares, neither overflows nor underflows
+template <class Number>
+bool is_finite(const Vector<Number>& v) {
+  return std::isfinite(value_of(v.x)) && std::isfinite(value_of(v.y)) && std::isfinite(value_of(v.z));
 }
 
-bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+template <class Number>
+Vector<Number> constant(const Vec3& v) {
+  return {Number(v.x), Number(v.y), Number(v.z)};
 }
 
-/// The nearest plane ahead of a ray at height `z`: -1 or planes.size() when there is none. `planes` descend
-/// in z.
-int plane_ahead(const std::vector<LensPlane>& planes, double z, double direction_z) {
+/// The part of a unit `direction` along the normal of a plane: the rate at which the ray nears it.
+template <class Number>
+Number rate(const LensPlane& plane, const Vector<Number>& direction) {
+  return constant<Number>(plane.normal).dot(direction);
+}
+
+bool all_parallel(const std::vector<LensPlane>& planes) {
+  return std::all_of(planes.begin(), planes.end(),
+                     [&](const LensPlane& plane) { return plane.normal == planes.front().normal; });
+}
+
+/// The nearest of parallel planes ahead of a ray that stands `distance` along their normal and moves along it
+/// at `rate`: -1 or planes.size() when there is none.
+int parallel_plane_ahead(const std::vector<LensPlane>& planes, double distance, double rate) {
   int index = 0;
   const int count = static_cast<int>(planes.size());
-  if (direction_z < 0.0) {
-    while (index < count && !(planes[index].z < z)) ++index;
+  if (rate > 0.0) {
+    while (index < count && !(planes[index].distance > distance)) ++index;
     return index;
   }
-  if (direction_z == 0.0) return count;
-  while (index < count && planes[index].z > z) ++index;
+  if (rate == 0.0) return count;
+  while (index < count && planes[index].distance < distance) ++index;
   return index - 1;
+}
+
+/// Bends the ray that ends `path` by the plane's sources, `crossing` being where it meets the plane. False
+/// when it is captured there.
+template <class Number>
+bool cross(const LensPlane& plane, const Vector<Number>& crossing, const Number& stretch,
+           RayPath<Number>& path) {
+  path.segments.back().length = stretch;
+  const Number travelled = path.lengths.back() + stretch;
+  Vector<Number> v_ray = path.segments.back().direction;
+  for (const Source& source : plane.sources) {
+    const Vector<Number> to_source = constant<Number>(source.position) - crossing;
+    const std::optional<Vector<Number>> bent = bend(v_ray, to_source, source.m);
+    path.captured = !bent || path.bends == kMaxCrossings;
+    if (path.captured) return false;
+    path.passages.push_back({source.m, length(source.position), length(to_source), travelled});
+    v_ray = *bent;
+  }
+  path.segments.push_back({crossing, v_ray});
+  path.lengths.push_back(travelled);
+  ++path.bends;
+  return true;
+}
+
+/// Where the ray that ends `path` meets the plane ahead, and after what length; nothing when that is too far
+/// away for numbers: it is as good as parallel.
+template <class Number>
+struct Crossing {
+  Vector<Number> point;
+  Number length;
+};
+template <class Number>
+std::optional<Crossing<Number>> crossing_of(const LensPlane& plane, const RaySegment<Number>& ray) {
+  const Vector<Number> normal = constant<Number>(plane.normal);
+  const Number length = (Number(plane.distance) - ray.start.dot(normal)) / rate(plane, ray.direction);
+  Vector<Number> point = ray.start + ray.direction * length;
+  if (plane.normal == Vec3(0, 0, -1)) point.z = -plane.distance;
+  if (!is_finite(point)) return std::nullopt;
+  return Crossing<Number>{point, length};
+}
+
+template <class Number>
+RayPath<Number> march_parallel(const std::vector<LensPlane>& planes, RayPath<Number> path) {
+  const Vec3 start = value_of(path.segments.front().start);
+  const Vec3 direction = value_of(path.segments.front().direction);
+  if (planes.empty()) return path;
+  int next = parallel_plane_ahead(planes, planes.front().normal.dot(start), rate(planes.front(), direction));
+  while (next >= 0 && next < static_cast<int>(planes.size())) {
+    const LensPlane& plane = planes[next];
+    const auto crossing = crossing_of(plane, path.segments.back());
+    if (!crossing || !cross(plane, crossing->point, crossing->length, path)) return path;
+    const double onward = rate(plane, value_of(path.segments.back().direction));
+    if (onward == 0.0) return path;
+    next += onward > 0.0 ? 1 : -1;
+  }
+  return path;
+}
+
+template <class Number>
+RayPath<Number> march_outward(const std::vector<LensPlane>& planes, RayPath<Number> path) {
+  for (const LensPlane& plane : planes) {
+    if (!(rate(plane, value_of(path.segments.back().direction)) > 0.0)) continue;
+    const auto crossing = crossing_of(plane, path.segments.back());
+    if (!crossing || !(value_of(crossing->length) >= 0.0)) continue;
+    if (!cross(plane, crossing->point, crossing->length, path)) return path;
+  }
+  return path;
 }
 
 }  // namespace
 
-std::optional<Vec3> bend(const Vec3& direction, const Vec3& to_source, double m) {
-  const double b = length_of(to_source);
-  const double alpha = weak_deflection(m, b);
-  if (!std::isfinite(alpha)) return std::nullopt;
-  const Vec3 v_g = to_source / b;                                    // (1)
-  const Vec3 towards_source = v_g - direction * v_g.dot(direction);  // (2), (3): V_ray x (V_g x V_ray)
-  const double length = length_of(towards_source);
-  if (length == 0.0) return std::nullopt;
-  const Vec3 v_rot = towards_source / length;
-  const Vec3 v_new = direction * std::cos(alpha) + v_rot * std::sin(alpha);  // (5), (6) times cos(alpha)
-  return v_new / length_of(v_new);
+template <class Number>
+std::optional<Vector<Number>> bend(const Vector<Number>& direction, const Vector<Number>& to_source,
+                                   double m) {
+  using std::cos, std::sin;
+  const Number b = length(to_source);
+  const double alpha0 = weak_deflection(m, value_of(b));
+  if (!std::isfinite(alpha0)) return std::nullopt;
+  const Number alpha = chained(b, alpha0, -alpha0 / value_of(b));
+  const Vector<Number> v_g = to_source * reciprocal(b);                    // (1)
+  const Vector<Number> across = v_g - direction * v_g.dot(direction);  // (2), (3): V_ray x (V_g x V_ray)
+  const Number share = length(across);
+  if (value_of(share) == 0.0) return std::nullopt;
+  const Vector<Number> v_rot = across * reciprocal(share);
+  const Vector<Number> v_new = direction * cos(alpha) + v_rot * sin(alpha);  // (5), (6) times cos(alpha)
+  return v_new * reciprocal(length(v_new));
 }
 
-RayPath march(const std::vector<LensPlane>& planes, const Vec3& start, const Vec3& direction) {
-  RayPath path{{{start, direction}}};
-  int next = plane_ahead(planes, start.z, direction.z);
-  for (int crossings = 0; next >= 0 && next < static_cast<int>(planes.size()); ++crossings) {
-    const LensPlane& plane = planes[next];
-    RaySegment& segment = path.segments.back();
-    const double length = (plane.z - segment.start.z) / segment.direction.z;
-    Vec3 crossing = segment.start + segment.direction * length;
-    crossing.z = plane.z;
-    if (!is_finite(crossing)) return path;  // as good as parallel to the plane
-    segment.length = length;
-
-    Vec3 v_ray = segment.direction;
-    for (const Source& source : plane.sources) {
-      const Vec3 to_source(source.x - crossing.x, source.y - crossing.y, 0.0);
-      const std::optional<Vec3> bent = bend(v_ray, to_source, source.m);
-      path.captured = !bent || crossings == kMaxCrossings;
-      if (path.captured) return path;
-      v_ray = *bent;
-    }
-    path.segments.push_back({crossing, v_ray});
-    if (v_ray.z == 0.0) return path;
-    next += v_ray.z < 0.0 ? 1 : -1;
-  }
-  return path;
+template <class Number>
+RayPath<Number> march(const std::vector<LensPlane>& planes, const Vector<Number>& start,
+                      const Vector<Number>& direction) {
+  RayPath<Number> path = path_from<Number>(start, direction);
+  return all_parallel(planes) ? march_parallel(planes, std::move(path))
+                              : march_outward(planes, std::move(path));
 }
+
+template std::optional<Vec3> bend(const Vec3&, const Vec3&, double);
+template std::optional<DualVec3> bend(const DualVec3&, const DualVec3&, double);
+template RayPath<double> march(const std::vector<LensPlane>&, const Vec3&, const Vec3&);
+template RayPath<Dual> march(const std::vector<LensPlane>&, const DualVec3&, const DualVec3&);
 
 }  // namespace lensplane

@@ -12,9 +12,11 @@ namespace lensplane {
 
 // Kishi             all sources on one plane, at their mass-weighted mean depth (T. Kishi 1999)
 // ShinotsukaMakino  a lens plane at every depth where there are sources (S. Shinotsuka and M. Makino 2000)
+// Planes            the same planes; each source turns the ray about itself, by a law of deflection.h
+// Geodesic          no planes: curved rays through the metric of all masses
 //
-// Both bend by equations (1) to (6) of the latter paper, with the weak law alpha = 4 m/b.
-enum class Method { Kishi, ShinotsukaMakino };
+// The first two bend by equations (1) to (6) of the latter paper, with the weak law alpha = 4 m/b.
+enum class Method { Kishi, ShinotsukaMakino, Planes, Geodesic };
 
 struct MethodName {
   Method method;
@@ -24,6 +26,8 @@ struct MethodName {
 inline constexpr std::array kMethodNames = {
     MethodName{Method::Kishi, "kishi"},
     MethodName{Method::ShinotsukaMakino, "shinotsuka-makino"},
+    MethodName{Method::Planes, "planes"},
+    MethodName{Method::Geodesic, "geodesic"},
 };
 
 constexpr std::string_view name_of(Method method) {

@@ -2,9 +2,12 @@
 
 #include "src/surfaces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
+#include "src/arrival_time.h"
 #include "src/constants.h"
 
 namespace lensplane {
@@ -12,46 +15,85 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-SurfaceHit meet_plate(const Camera& camera, FilmPosition film, const Vec3& first, const Vec3& last) {
-  SurfaceHit hit{Outcome::Behind, {0, 0}, kInfinity};
-  if (!(last.z < 0.0)) return hit;
-  // The change of slope, not the slope: exactly zero for a ray that is not bent, however narrow the view.
-  const double per_pixel = slope_per_pixel(camera);
-  const double moved_right = (last.x / -last.z - first.x / -first.z) / per_pixel;
-  const double moved_up = (last.y / -last.z - first.y / -first.z) / per_pixel;
-  const TextureCoordinates st{(film.x + moved_right) / camera.width,
-                              1.0 - (film.y - moved_up) / camera.height};
-  if (!(std::abs(st.s) <= kPlateLimit && std::abs(st.t) <= kPlateLimit)) return hit;
-  return {Outcome::Hit, st, kInfinity};
+template <class Number>
+Vector<Number> constant(const Vec3& v) {
+  return {Number(v.x), Number(v.y), Number(v.z)};
 }
 
-SurfaceHit meet_sphere(const Sphere& sphere, const RayPath& path) {
-  double travelled = 0.0;
-  for (const RaySegment& segment : path.segments) {
-    const double entry = sphere_entry(segment.start, segment.direction, sphere.centre, sphere.radius);
-    if (entry <= segment.length && entry < kInfinity) {
-      const Vec3 normal = segment.start + segment.direction * entry - sphere.centre;
-      return {Outcome::Hit, st_from_sphere_normal(sphere.axes.local_from_parent(normal)), travelled + entry};
-    }
-    travelled += segment.length;
+template <class Number>
+Vector<Number> local_from_parent(const Basis& axes, const Vector<Number>& v) {
+  return {constant<Number>(axes.x).dot(v), constant<Number>(axes.y).dot(v), constant<Number>(axes.z).dot(v)};
+}
+
+template <class Number>
+Vector<Number> parent_from_local(const Basis& axes, const Vector<Number>& v) {
+  return constant<Number>(axes.x) * v.x + constant<Number>(axes.y) * v.y + constant<Number>(axes.z) * v.z;
+}
+
+/// Angles at a pole have no derivatives.
+double angle(double y, double x) {
+  return std::atan2(y, x);
+}
+Dual angle(const Dual& y, const Dual& x) {
+  return x.v == 0.0 && y.v == 0.0 ? Dual(std::atan2(y.v, x.v)) : atan2(y, x);
+}
+
+/// The parallelogram that the derivatives of `v` span, as seen along `axis`.
+double spanned(const Vec3& axis, const DualVec3& v) {
+  return axis.dot(derivative_by_x(v).cross(derivative_by_y(v)));
+}
+
+double magnification_of(double seen, double there) {
+  const double mu = seen / there;
+  if (std::isnan(mu)) return 0.0;
+  return std::clamp(mu, -kLargestMagnification, kLargestMagnification);
+}
+
+template <class Number>
+SurfaceHit<Number> meet_sphere(const Sphere& sphere, const RayPath<Number>& path, const Deflectors* finite) {
+  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+    const RaySegment<Number>& segment = path.segments[i];
+    Vector<Number> start = segment.start;
+    if (finite) start += finite_shift(*finite, segment.start, segment.direction, sphere.centre);
+    const Number entry = sphere_entry(start, segment.direction, sphere.centre, sphere.radius);
+    if (!(value_of(entry) <= value_of(segment.length)) || !(value_of(entry) < kInfinity)) continue;
+    const Vector<Number> point = start + segment.direction * entry;
+    SurfaceHit<Number> hit = meet_sphere_at(sphere, path.segments.front().direction, point);
+    hit.distance = value_of(path.lengths[i]) + value_of(entry);
+    hit.direction = value_of(segment.direction);
+    hit.bends = static_cast<int>(i);
+    std::size_t passed = 0;
+    while (passed < path.passages.size() && value_of(path.passages[passed].path) <= hit.distance) ++passed;
+    hit.delay =
+        (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance, passed);
+    return hit;
   }
-  return {path.captured ? Outcome::Captured : Outcome::Missed, {0, 0}, 0};
+  SurfaceHit<Number> miss;
+  miss.outcome = path.captured ? Outcome::Captured : Outcome::Missed;
+  miss.direction = value_of(path.segments.back().direction);
+  miss.bends = path.bends;
+  return miss;
 }
 
 }  // namespace
 
-double sphere_entry(const Vec3& start, const Vec3& direction, const Vec3& centre, double radius) {
-  const Vec3 to_centre = centre - start;
-  const double along = to_centre.dot(direction);
-  const Vec3 across = to_centre - direction * along;
-  const double half_chord2 = radius * radius - across.dot(across);
-  if (!(half_chord2 >= 0.0)) return kInfinity;
-  const double near = along - std::sqrt(half_chord2);
-  return near >= -kSurfaceTolerance * radius ? near : kInfinity;
+template <class Number>
+Number sphere_entry(const Vector<Number>& start, const Vector<Number>& direction, const Vec3& centre,
+                    double radius) {
+  const Vector<Number> to_centre = constant<Number>(centre) - start;
+  const Number along = to_centre.dot(direction);
+  const Vector<Number> across = to_centre - direction * along;
+  const Number half_chord2 = Number(radius * radius) - across.dot(across);
+  if (!(value_of(half_chord2) >= 0.0)) return kInfinity;
+  const Number near = along - sqrt(half_chord2);
+  return value_of(near) >= -kSurfaceTolerance * radius ? near : Number(kInfinity);
 }
 
-TextureCoordinates st_from_sphere_normal(const Vec3& n) {
-  return {0.5 + std::atan2(n.x, n.z) / (2.0 * kPi), 0.5 + std::atan2(n.y, std::hypot(n.x, n.z)) / kPi};
+template <class Number>
+TexturePoint<Number> st_from_sphere_normal(const Vector<Number>& n) {
+  const Number longitude = angle(n.x, n.z);
+  const Number latitude = angle(n.y, length(Vector<Number>(n.x, n.z, Number(0.0))));
+  return {0.5 + longitude * (1.0 / (2.0 * kPi)), 0.5 + latitude * (1.0 / kPi)};
 }
 
 Vec3 sphere_normal_from_st(TextureCoordinates st) {
@@ -62,8 +104,9 @@ Vec3 sphere_normal_from_st(TextureCoordinates st) {
 }
 
 // The sky is a sphere seen from inside: its longitude 0 lies along -z, and east is to the right there, too.
-TextureCoordinates st_from_sky_direction(const Vec3& d) {
-  return st_from_sphere_normal({d.x, d.y, -d.z});
+template <class Number>
+TexturePoint<Number> st_from_sky_direction(const Vector<Number>& d) {
+  return st_from_sphere_normal(Vector<Number>(d.x, d.y, -d.z));
 }
 
 Vec3 sky_direction_from_st(TextureCoordinates st) {
@@ -71,14 +114,105 @@ Vec3 sky_direction_from_st(TextureCoordinates st) {
   return {normal.x, normal.y, -normal.z};
 }
 
-SurfaceHit meet(const Surface& surface, const Camera& camera, FilmPosition film, const RayPath& path) {
-  if (const auto* sphere = std::get_if<Sphere>(&surface)) return meet_sphere(*sphere, path);
-  if (path.captured) return {Outcome::Captured, {0, 0}, kInfinity};
-  const Vec3& last = path.segments.back().direction;
-  if (std::holds_alternative<LatLong>(surface)) {
-    return {Outcome::Hit, st_from_sky_direction(camera.axes.parent_from_local(last)), kInfinity};
+double magnification_at_infinity(const DualVec3& first, const DualVec3& last) {
+  return magnification_of(spanned(value_of(first), first), spanned(value_of(last), last));
+}
+
+double magnification_of_point(const DualVec3& first, const DualVec3& point, const Vec3& normal) {
+  const Vec3 p = value_of(point);
+  const double distance = length(p);
+  const Vec3 sight = p / distance;
+  const double there = spanned(sight, point) / (distance * distance);
+  const bool from_inside = sight.dot(normal) > 0.0;  // its back: without lensing it would be seen mirrored
+  return magnification_of(spanned(value_of(first), first), from_inside ? -there : there);
+}
+
+template <class Number>
+SurfaceHit<Number> meet_plate(const Camera& camera, FilmPosition film, const Vector<Number>& first,
+                              const Vector<Number>& last) {
+  SurfaceHit<Number> hit;
+  hit.outcome = Outcome::Behind;
+  hit.distance = kInfinity;
+  hit.direction = value_of(last);
+  const auto on_film = film_moved(camera, film, first, last);
+  if (!on_film) return hit;
+  const TexturePoint<Number> st{on_film->x * (1.0 / camera.width), 1.0 - on_film->y * (1.0 / camera.height)};
+  if (!(std::abs(value_of(st.s)) <= kPlateLimit && std::abs(value_of(st.t)) <= kPlateLimit)) return hit;
+  hit.outcome = Outcome::Hit;
+  hit.st = st;
+  if constexpr (std::is_same_v<Number, Dual>) hit.magnification = magnification_at_infinity(first, last);
+  return hit;
+}
+
+template <class Number>
+SurfaceHit<Number> meet_sky(const Camera& camera, const Vector<Number>& first, const Vector<Number>& last) {
+  SurfaceHit<Number> hit;
+  hit.outcome = Outcome::Hit;
+  hit.distance = kInfinity;
+  hit.direction = value_of(last);
+  hit.st = st_from_sky_direction(parent_from_local(camera.axes, last));
+  if constexpr (std::is_same_v<Number, Dual>) hit.magnification = magnification_at_infinity(first, last);
+  return hit;
+}
+
+template <class Number>
+SurfaceHit<Number> meet_sphere_at(const Sphere& sphere, const Vector<Number>& first,
+                                  const Vector<Number>& point) {
+  SurfaceHit<Number> hit;
+  hit.outcome = Outcome::Hit;
+  const Vector<Number> normal = point - constant<Number>(sphere.centre);
+  hit.st = st_from_sphere_normal(local_from_parent(sphere.axes, normal));
+  if constexpr (std::is_same_v<Number, Dual>) {
+    hit.magnification = magnification_of_point(first, point, value_of(normal));
   }
-  return meet_plate(camera, film, path.segments.front().direction, last);
+  return hit;
+}
+
+template <class Number>
+Vector<Number> finite_shift(const Deflectors& deflectors, const Vector<Number>& start,
+                            const Vector<Number>& direction, const Vec3& point) {
+  // Integrating d^2y/dz^2 = -2 m b/r^3 from the camera to z leaves this beside the straight stretches.
+  const double beyond_start = std::max(0.0, (point - value_of(start)).dot(value_of(direction)));
+  Vector<Number> shift = constant<Number>(Vec3(0));
+  for (const DeflectorPlane& plane : deflectors.planes) {
+    for (const Deflector& deflector : plane.deflectors) {
+      const Vector<Number> to_mass = constant<Number>(deflector.position) - start;
+      const Number along = to_mass.dot(direction);
+      const Vector<Number> across = to_mass - direction * along;
+      const Number b2 = across.dot(across);
+      if (value_of(b2) == 0.0) continue;
+      const Number z = beyond_start - along;  // past the closest approach
+      const Number r = sqrt(z * z + b2);
+      const Number z_camera = constant<Number>(deflector.position).dot(direction);
+      const Number r_camera = sqrt(z_camera * z_camera + b2);
+      const bool passed = value_of(z) >= 0.0 || value_of(z_camera) < 0.0;
+      const Number share = passed ? 1.0 / (r + z) : (r + (z * z_camera - b2) / r_camera) / b2;
+      if (value_of(z) < 0.0 && passed) continue;
+      shift += across * (2.0 * deflector.m * share);
+    }
+  }
+  return shift;
+}
+
+template <class Number>
+SurfaceHit<Number> meet(const Surface& surface, const Camera& camera, FilmPosition film,
+                        const RayPath<Number>& path, const Deflectors* finite) {
+  if (const auto* sphere = std::get_if<Sphere>(&surface)) return meet_sphere(*sphere, path, finite);
+  const Vector<Number>& first = path.segments.front().direction;
+  const RaySegment<Number>& end = path.segments.back();
+  SurfaceHit<Number> hit;
+  if (path.captured) {
+    hit.outcome = Outcome::Captured;
+    hit.distance = kInfinity;
+    hit.direction = value_of(end.direction);
+  } else {
+    hit = std::holds_alternative<LatLong>(surface) ? meet_sky(camera, first, end.direction)
+                                                   : meet_plate(camera, film, first, end.direction);
+    hit.delay = (value_of(path.lengths.back()) - value_of(end.start).dot(value_of(end.direction))) +
+                shapiro_delay_from_infinity(path);
+  }
+  hit.bends = path.bends;
+  return hit;
 }
 
 Surface camera_from_world(const Camera& camera, const Surface& surface) {
@@ -87,5 +221,24 @@ Surface camera_from_world(const Camera& camera, const Surface& surface) {
   return Sphere{camera.axes.local_from_parent(sphere->centre - camera.position), sphere->radius,
                 local_from_parent(camera.axes, sphere->axes)};
 }
+
+template double sphere_entry(const Vec3&, const Vec3&, const Vec3&, double);
+template Dual sphere_entry(const DualVec3&, const DualVec3&, const Vec3&, double);
+template TexturePoint<double> st_from_sky_direction(const Vec3&);
+template TexturePoint<Dual> st_from_sky_direction(const DualVec3&);
+template TexturePoint<double> st_from_sphere_normal(const Vec3&);
+template TexturePoint<Dual> st_from_sphere_normal(const DualVec3&);
+template SurfaceHit<double> meet_plate(const Camera&, FilmPosition, const Vec3&, const Vec3&);
+template SurfaceHit<Dual> meet_plate(const Camera&, FilmPosition, const DualVec3&, const DualVec3&);
+template SurfaceHit<double> meet_sky(const Camera&, const Vec3&, const Vec3&);
+template SurfaceHit<Dual> meet_sky(const Camera&, const DualVec3&, const DualVec3&);
+template SurfaceHit<double> meet_sphere_at(const Sphere&, const Vec3&, const Vec3&);
+template SurfaceHit<Dual> meet_sphere_at(const Sphere&, const DualVec3&, const DualVec3&);
+template Vec3 finite_shift(const Deflectors&, const Vec3&, const Vec3&, const Vec3&);
+template DualVec3 finite_shift(const Deflectors&, const DualVec3&, const DualVec3&, const Vec3&);
+template SurfaceHit<double> meet(const Surface&, const Camera&, FilmPosition, const RayPath<double>&,
+                                 const Deflectors*);
+template SurfaceHit<Dual> meet(const Surface&, const Camera&, FilmPosition, const RayPath<Dual>&,
+                               const Deflectors*);
 
 }  // namespace lensplane

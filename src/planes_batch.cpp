@@ -1,0 +1,532 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "src/planes_batch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <type_traits>
+
+#include "src/near_turn.h"
+#include "src/rotation.h"
+
+namespace lensplane {
+namespace {
+
+template <class Number>
+[[gnu::always_inline]] inline Vector<Number> constant(const Vec3& v) {
+  return {Number(v.x), Number(v.y), Number(v.z)};
+}
+
+template <class Number>
+[[gnu::always_inline]] inline Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class Number>
+[[gnu::always_inline]] inline Vector<Number> scaled(const Vector<Number>& a, const Number& s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+
+template <class Number>
+[[gnu::always_inline]] inline Vector<Number> sum(const Vector<Number>& a, const Vector<Number>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+template <class Number>
+[[gnu::always_inline]] inline Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+/// How strongly a mass bends.
+template <class Number>
+struct Strength {
+  Number per_b;          // alpha/b
+  Number arc;            // alpha b
+  double steepness = 0;  // -d alpha/db
+};
+
+/// Strength for b^2, by the law at its full length.
+template <Law law, Reach reach, class Number>
+[[gnu::always_inline]] inline Strength<Number> full_strength(double m, const Number& b2) {
+  if constexpr (law == Law::Weak) {
+    const Number per_b = (4.0 * m) * reciprocal(b2);
+    return {per_b, Number(4.0 * m), value_of(per_b)};
+  }
+  if constexpr (law == Law::SecondOrder) {
+    constexpr double kSecond = 15.0 * std::numbers::pi / 4.0;
+    const Number per_b = reciprocal(sqrt(b2));
+    const Number second = (kSecond * m * m) * per_b;
+    const Number arc = 4.0 * m + second;
+    return {arc * (per_b * per_b), arc, value_of((arc + second) * (per_b * per_b))};
+  }
+  if constexpr (law == Law::Exact && reach == Reach::Far) {
+    const double b_c = kCriticalRatio * m;
+    const Number per_b = reciprocal(sqrt(b2));
+    const Number x = b_c * per_b;
+    const ValueAndSlope f = polynomial(kFar, value_of(x));
+    const Number arc = b_c * chained(x, f.value, f.slope);
+    const double steepness = (f.value + value_of(x) * f.slope) * value_of(x * per_b);
+    return {arc * (per_b * per_b), arc, steepness};
+  }
+  if constexpr (law == Law::Exact && reach == Reach::Near) {
+    const Number b = sqrt(b2);
+    const Deflection exact = near_exact(m, value_of(b));
+    const Number alpha = chained(b, exact.alpha, exact.dalpha_db);
+    return {alpha * reciprocal(b), alpha * b, -exact.dalpha_db};
+  }
+}
+
+/// The strength that is left at the finite distance of the camera; bend_by() of planes_march.h without
+/// branches. `along` is the distance from the camera to the closest approach.
+template <Law law, Reach reach, class Number>
+[[gnu::always_inline]] inline Strength<Number> finite_strength(const Deflector& deflector, const Number& b2,
+                                                               const Number& along) {
+  const bool ahead = value_of(along) >= 0.0;
+  const double n = deflector.index;
+  const Number r2 = along * along + b2;
+  const Number cosine = along * reciprocal(sqrt(r2));
+  const Number per_b2 = select(ahead, 1.0 + cosine, Number(1.0)) *
+                        reciprocal(select(ahead, b2, r2 * (1.0 - cosine)));
+  const double weak = 2.0 * deflector.m / n;
+  Number per_b = weak * per_b2;
+  if constexpr (law != Law::Weak) {
+    const Number nearest2 = (n * n) * select(ahead, b2, r2);
+    const Number weakest = (4.0 * deflector.m) * reciprocal(nearest2);
+    const Number excess_per_b = full_strength<law, reach>(deflector.m, nearest2).per_b - weakest;
+    // alpha/b = excess h/b; ahead excess = excess_per_b n b, behind excess_per_b n r.
+    const Number reach_over_b = select(ahead, Number(1.0), sqrt(r2) * per_b2 * sqrt(b2));
+    const Number share = select(ahead, 1.0 + cosine, b2 * per_b2);
+    const Number other = select(ahead, 1.0 + cosine, Number(1.0));
+    per_b += (0.25 * n) * excess_per_b * (2.0 - cosine) * share * other * reach_over_b;
+  }
+  return {per_b, per_b * b2};
+}
+
+inline constexpr double kLeastB2 = 1e-280;    // smaller squares lose digits
+inline constexpr double kFarthestB2 = 1e280;  // products of larger squares overflow
+
+/// Smallest b^2 of a mass ahead that the kernels do.
+template <Reach reach>
+double nearest_b2(double m) {
+  const double b = reach == Reach::Far ? kCriticalRatio * m / kFarRatio : 0.0;
+  return std::max(b * b, kLeastB2);
+}
+
+template <Reach reach, class Number>
+[[gnu::always_inline]] inline Turn<Number> turn_within(const Number& q) {
+  if constexpr (reach == Reach::Far) return short_turn(q);
+  else return near_turn(q);
+}
+
+template <Reach reach>
+[[gnu::always_inline]] inline bool turn_fits(double q) {
+  return reach == Reach::Far ? q <= kShortTurn * kShortTurn : q <= kLongestTurn * kLongestTurn;
+}
+
+/// Where the rays pass a single mass.
+template <class Number>
+struct Approach {
+  VectorLane<Number> across;  // from the foot point to the mass
+  Lane<Number> along;         // from the start to the foot point
+  Lane<Number> b2;
+};
+
+template <class Number>
+[[gnu::always_inline]] inline void approach(const Vec3& mass, const VectorLane<Number>& start,
+                                            const VectorLane<Number>& direction, Approach<Number>& to) {
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const Vector<Number> d = direction.get(i);
+    const Vector<Number> to_mass = difference(constant<Number>(mass), start.get(i));
+    const Number along = dot(to_mass, d);
+    const Vector<Number> across = difference(to_mass, scaled(d, along));
+    to.across.set(i, across);
+    to.along.set(i, along);
+    to.b2.set(i, dot(across, across));
+  }
+}
+
+/// What a kernel has to know of a mass beside its law.
+template <Reach reach>
+struct Limits {
+  Limits(const Deflector& deflector, bool finite)
+      : m(deflector.m),
+        n(deflector.index),
+        least_b2(nearest_b2<reach>(deflector.m / deflector.index)),
+        near_camera(finite && length(deflector.position) <
+                                  (reach == Reach::Far ? kCriticalRatio / kFarRatio : kPhotonSphere) * m) {}
+
+  double m, n;
+  double least_b2;
+  bool near_camera;
+
+  /// Does the kernel do for this impact parameter?
+  [[gnu::always_inline]] bool fit(bool ahead, double b2) const {
+    return (b2 >= (ahead ? least_b2 : kLeastB2)) & (b2 <= kFarthestB2) & !near_camera;
+  }
+  /// Is the light captured: no farther than b_c from a mass ahead?
+  [[gnu::always_inline]] bool capture(bool ahead, double b2) const {
+    if (reach == Reach::Far) return false;
+    const CriticalRadius critical = critical_radius(m);
+    return ahead & ((n * std::sqrt(b2) - critical.b_c) - critical.rest <= 0.0) & !near_camera;
+  }
+};
+
+/// Marks a ray that the kernel does not do for, or that is captured.
+template <class Number>
+[[gnu::always_inline]] inline void mark(int i, bool fits, bool captured, LineBatch<Number>& rays) {
+  rays.captured[i] = captured ? 1.0 : rays.captured[i];
+  rays.irregular[i] = fits | captured ? rays.irregular[i] : 1.0;
+}
+
+/// A plane with one mass: the line turns about it. Rays have to stay below `limit_z` in direction.
+template <class Number, Law law, Reach reach, bool finite, bool path>
+LENSPLANE_KERNEL void turn_about(const Deflector& deflector, double limit_z, LineBatch<Number>& rays) {
+  Approach<Number> to;
+  approach(deflector.position, rays.start, rays.direction, to);
+  const Vector<Number> mass = constant<Number>(deflector.position);
+  const Limits<reach> limits(deflector, finite);
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const Number b2 = to.b2.get(i);
+    const Vector<Number> across = to.across.get(i);
+    const Vector<Number> direction = rays.direction.get(i);
+    Strength<Number> strength;
+    bool ahead = true;
+    if constexpr (finite) {
+      const Number from_camera = dot(mass, direction);
+      ahead = value_of(from_camera) >= 0.0;
+      strength = finite_strength<law, reach>(deflector, b2, from_camera);
+    } else {
+      strength = full_strength<law, reach>(deflector.m, b2);
+    }
+    const Number q = strength.per_b * strength.arc;
+    const Turn<Number> r = turn_within<reach>(q);
+    const Vector<Number> across_out =
+        difference(scaled(across, r.cosine), scaled(direction, strength.arc * r.sine));
+    const Vector<Number> out = sum(scaled(direction, r.cosine), scaled(across, strength.per_b * r.sine));
+    double way = value_of(to.along.get(i));
+    if constexpr (finite) {
+      const Number back = select(way < 0.0, to.along.get(i), Number(0.0));
+      const Vector<Number> foot = difference(mass, scaled(across_out, Number(limits.n)));
+      rays.start.set(i, difference(foot, scaled(out, back)));
+      way -= value_of(back);
+    } else {
+      rays.start.set(i, difference(mass, across_out));
+    }
+    rays.direction.set(i, out);
+    if constexpr (path) rays.path.v[i] += way + value_of(strength.arc);
+    const double b2_value = value_of(b2);
+    const bool fits =
+        limits.fit(ahead, b2_value) & turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z);
+    mark(i, fits, limits.capture(ahead, b2_value), rays);
+  }
+}
+
+/// The derivatives of one film coordinate, along a ray.
+struct Tangent {
+  double p1, p2;  // those of start (moved on to the foot point) and direction along `across`
+  double q1, q2;  // and along the normal of the bending plane
+};
+
+[[gnu::always_inline]] inline Tangent tangent_at(const Vec3& start, const Vec3& direction, const Vec3& across,
+                                                 const Vec3& normal, double along) {
+  const double p2 = dot(across, direction);
+  const double q2 = dot(normal, direction);
+  return {dot(across, start) + along * p2, p2, dot(normal, start) + along * q2, q2};
+}
+
+/// turn_about() for Dual numbers, with the derivatives by hand: a change of the ray within the plane of the
+/// bend changes b, and with it alpha; a change across it turns with that plane. (The same as by the rules of
+/// Dual numbers, in half the operations.)
+template <Law law, Reach reach, bool path>
+LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, double limit_z,
+                                               LineBatch<Dual>& rays) {
+  VectorLane<double> across_of;
+  Lane<double> along_of, b2_of;
+  const Vec3 mass = deflector.position;
+  const Limits<reach> limits(deflector, false);
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const Vec3 d(rays.direction.x.v[i], rays.direction.y.v[i], rays.direction.z.v[i]);
+    const Vec3 to_mass(mass.x - rays.start.x.v[i], mass.y - rays.start.y.v[i], mass.z - rays.start.z.v[i]);
+    const double along = dot(to_mass, d);
+    const Vec3 across = difference(to_mass, scaled(d, along));
+    across_of.set(i, across);
+    along_of.v[i] = along;
+    b2_of.v[i] = dot(across, across);
+  }
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const double b2 = b2_of.v[i];
+    const double along = along_of.v[i];
+    const Vec3 across = across_of.get(i);
+    const Vec3 d(rays.direction.x.v[i], rays.direction.y.v[i], rays.direction.z.v[i]);
+    const Vec3 normal(d.y * across.z - d.z * across.y, d.z * across.x - d.x * across.z,
+                      d.x * across.y - d.y * across.x);
+    const Strength<double> strength = full_strength<law, reach>(deflector.m, b2);
+    const double q = strength.per_b * strength.arc;
+    const Turn<double> r = turn_within<reach>(q);
+    const double b_sine = strength.arc * r.sine;  // b sin(alpha)
+    const double sine_per_b = strength.per_b * r.sine;
+    const Vec3 across_out = difference(scaled(across, r.cosine), scaled(d, b_sine));
+    const Vec3 out = sum(scaled(d, r.cosine), scaled(across, sine_per_b));
+    const Vec3 start = difference(mass, across_out);
+    const double per_b2 = 1.0 / b2;
+
+    const auto carried = [&](const Tangent& t) __attribute__((always_inline)) {
+      const double along_across = t.p1 * per_b2;
+      const double along_normal = (r.cosine * t.q1 + b_sine * t.q2) * per_b2;
+      return sum(scaled(across_out, along_across), scaled(normal, along_normal));
+    };
+    const auto turned = [&](const Tangent& t) __attribute__((always_inline)) {
+      const double along_across = (t.p2 + strength.steepness * t.p1) * per_b2;
+      const double along_normal = (r.cosine * t.q2 - sine_per_b * t.q1) * per_b2;
+      return sum(scaled(across_out, along_across), scaled(normal, along_normal));
+    };
+    const Tangent x = tangent_at(
+        Vec3(rays.start.x.dx[i], rays.start.y.dx[i], rays.start.z.dx[i]),
+        Vec3(rays.direction.x.dx[i], rays.direction.y.dx[i], rays.direction.z.dx[i]), across, normal, along);
+    const Tangent y = tangent_at(
+        Vec3(rays.start.x.dy[i], rays.start.y.dy[i], rays.start.z.dy[i]),
+        Vec3(rays.direction.x.dy[i], rays.direction.y.dy[i], rays.direction.z.dy[i]), across, normal, along);
+    const Vec3 start_x = carried(x), start_y = carried(y), out_x = turned(x), out_y = turned(y);
+    rays.start.set(i, dual_vector(start, start_x, start_y));
+    rays.direction.set(i, dual_vector(out, out_x, out_y));
+    if constexpr (path) rays.path.v[i] += along + strength.arc;
+    const bool fits = limits.fit(true, b2) & turn_fits<reach>(q) & (out.z < limit_z);
+    mark(i, fits, limits.capture(true, b2), rays);
+  }
+}
+
+/// The sums of planes_march.cpp over the masses of one plane.
+template <class Number>
+struct SumsBatch {
+  VectorLane<Number> reference;  // the point of the ray nearest to the plane's centre
+  Lane<Number> ahead;            // from the start to there
+  VectorLane<Number> bend, kink, shift, outward;
+  Lane<double> arc;
+};
+
+template <class Number>
+LENSPLANE_KERNEL void begin_sums(const Vec3& centre, const LineBatch<Number>& rays, SumsBatch<Number>& sums) {
+  const Vector<Number> zero = constant<Number>(Vec3(0));
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const Vector<Number> direction = rays.direction.get(i);
+    const Vector<Number> start = rays.start.get(i);
+    const Number ahead = dot(difference(constant<Number>(centre), start), direction);
+    sums.reference.set(i, sum(start, scaled(direction, ahead)));
+    sums.ahead.set(i, ahead);
+    sums.bend.set(i, zero);
+    sums.kink.set(i, zero);
+    sums.shift.set(i, zero);
+    sums.outward.set(i, zero);
+    sums.arc.v[i] = 0.0;
+  }
+}
+
+template <class Number, Law law, Reach reach, bool finite, bool path>
+LENSPLANE_KERNEL void add_to_sums(const Deflector& deflector, LineBatch<Number>& rays,
+                                  SumsBatch<Number>& sums) {
+  const Vector<Number> mass = constant<Number>(deflector.position);
+  const Limits<reach> limits(deflector, finite);
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const Vector<Number> direction = rays.direction.get(i);
+    const Vector<Number> to_mass = difference(mass, sums.reference.get(i));
+    const Number along = dot(to_mass, direction);
+    const Vector<Number> across = difference(to_mass, scaled(direction, along));
+    const Number b2 = dot(across, across);
+    Strength<Number> strength;
+    bool ahead = true;
+    if constexpr (finite) {
+      const Number from_camera = dot(mass, direction);
+      ahead = value_of(from_camera) >= 0.0;
+      strength = finite_strength<law, reach>(deflector, b2, from_camera);
+      sums.outward.set(i, sum(sums.outward.get(i), scaled(across, Number(limits.n - 1.0))));
+    } else {
+      strength = full_strength<law, reach>(deflector.m, b2);
+    }
+    const Vector<Number> bend = scaled(across, strength.per_b);
+    const Number q = strength.per_b * strength.arc;
+    sums.bend.set(i, sum(sums.bend.get(i), bend));
+    sums.kink.set(i, sum(sums.kink.get(i), scaled(bend, along)));
+    sums.shift.set(i, sum(sums.shift.get(i), scaled(bend, strength.arc)));
+    if constexpr (path) sums.arc.v[i] += value_of(strength.arc);
+    const double b2_value = value_of(b2);
+    mark(i, limits.fit(ahead, b2_value) & turn_fits<reach>(value_of(q)), limits.capture(ahead, b2_value), rays);
+  }
+}
+
+/// A plane with several masses: the line turns by the sum of their bends.
+template <class Number, Reach reach, bool finite, bool path>
+LENSPLANE_KERNEL void turn_by_sums(const SumsBatch<Number>& sums, double limit_z, LineBatch<Number>& rays) {
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const Vector<Number> direction = rays.direction.get(i);
+    const Vector<Number> bend = sums.bend.get(i);
+    const Number q = dot(bend, bend);
+    const Turn<Number> r = turn_within<reach>(q);
+    Vector<Number> inward = sum(scaled(sums.kink.get(i), r.sine), scaled(sums.shift.get(i), r.versine));
+    if constexpr (finite) inward = sum(inward, sums.outward.get(i));
+    const Vector<Number> axis = sum(scaled(bend, r.versine), scaled(direction, r.sine));
+    const Vector<Number> rotated = difference(inward, scaled(axis, dot(inward, bend)));
+    const Vector<Number> out = sum(scaled(direction, r.cosine), scaled(bend, r.sine));
+    Vector<Number> start = difference(sums.reference.get(i), rotated);
+    double way = value_of(sums.ahead.get(i));
+    if constexpr (finite) {
+      const Number back = select(way < 0.0, sums.ahead.get(i), Number(0.0));
+      start = difference(start, scaled(out, back));
+      way -= value_of(back);
+    }
+    rays.start.set(i, start);
+    rays.direction.set(i, out);
+    if constexpr (path) rays.path.v[i] += way + sums.arc.v[i];
+    mark(i, turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z), false, rays);
+  }
+}
+
+/// Adds the Shapiro delay of a mass, for light from infinity: 2 m ln((z1 + r1) 2 D/b^2). See arrival_time.h.
+template <class Number>
+LENSPLANE_KERNEL void add_shapiro(const Deflector& deflector, LineBatch<Number>& rays) {
+  const Vec3 mass = deflector.position;
+  const double twice_distance = 2.0 * length(mass);
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const Vec3 d = value_of(rays.direction.get(i));
+    const Vec3 to_mass = difference(mass, value_of(rays.start.get(i)));
+    const double along = dot(to_mass, d);
+    const Vec3 across = difference(to_mass, scaled(d, along));
+    const double b2 = dot(across, across);
+    const double z1 = rays.path.v[i] + along;
+    const double r1 = std::sqrt(z1 * z1 + b2);
+    const bool ahead = z1 >= 0.0;
+    const double ratio = (ahead ? z1 + r1 : 1.0) * twice_distance / (ahead ? b2 : r1 - z1);
+    rays.shapiro.v[i] += 2.0 * deflector.m * log_of_share(1.0 - ratio, ratio);
+  }
+}
+
+template <class Number, Law law, Reach reach, bool finite, bool path>
+void turn_about_one(const Deflector& deflector, double limit_z, LineBatch<Number>& rays) {
+  if constexpr (std::is_same_v<Number, Dual> && !finite) {
+    turn_about_with_tangents<law, reach, path>(deflector, limit_z, rays);
+  } else {
+    turn_about<Number, law, reach, finite, path>(deflector, limit_z, rays);
+  }
+}
+
+template <class Number, Reach reach, bool finite, bool path>
+void pass_with(const DeflectorPlane& plane, double limit_z, LineBatch<Number>& rays) {
+  const auto by_law = [](Law law, auto weak, auto second_order, auto exact) {
+    return law == Law::Weak ? weak : law == Law::SecondOrder ? second_order : exact;
+  };
+  if (plane.deflectors.size() == 1) {
+    const Deflector& deflector = plane.deflectors.front();
+    by_law(deflector.law, turn_about_one<Number, Law::Weak, reach, finite, path>,
+           turn_about_one<Number, Law::SecondOrder, reach, finite, path>,
+           turn_about_one<Number, Law::Exact, reach, finite, path>)(deflector, limit_z, rays);
+    return;
+  }
+  SumsBatch<Number> sums;
+  begin_sums(plane.centre, rays, sums);
+  for (const Deflector& deflector : plane.deflectors) {
+    by_law(deflector.law, add_to_sums<Number, Law::Weak, reach, finite, path>,
+           add_to_sums<Number, Law::SecondOrder, reach, finite, path>,
+           add_to_sums<Number, Law::Exact, reach, finite, path>)(deflector, rays, sums);
+  }
+  turn_by_sums<Number, reach, finite, path>(sums, limit_z, rays);
+}
+
+template <class Number, Reach reach>
+void pass_within(const DeflectorPlane& plane, bool finite, bool path, double limit_z,
+                 LineBatch<Number>& rays) {
+  if (finite) {
+    path ? pass_with<Number, reach, true, true>(plane, limit_z, rays)
+         : pass_with<Number, reach, true, false>(plane, limit_z, rays);
+  } else {
+    path ? pass_with<Number, reach, false, true>(plane, limit_z, rays)
+         : pass_with<Number, reach, false, false>(plane, limit_z, rays);
+  }
+}
+
+/// Without a screen: light that has turned by more than 45 degrees from its first direction may be on its way
+/// back.
+template <class Number>
+void mark_turned(LineBatch<Number>& rays) {
+  for (int i = 0; i < kBatchSize; ++i) {
+    const bool onward = dot(rays.first.get(i), value_of(rays.direction.get(i))) > 0.70710678118654757;
+    rays.irregular[i] = onward ? rays.irregular[i] : 1.0;
+  }
+}
+
+template <class Number>
+LENSPLANE_KERNEL void start_perspective(const Camera& camera, const BatchArray& x, const BatchArray& y,
+                                        LineBatch<Number>& rays) {
+  const double slope = slope_per_pixel(camera);
+  const double centre_x = camera.width / 2.0;
+  const double centre_y = camera.height / 2.0;
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const double right = (x[i] - centre_x) * slope;
+    const double up = (centre_y - y[i]) * slope;
+    Number dual_right = right;
+    Number dual_up = up;
+    if constexpr (std::is_same_v<Number, Dual>) {
+      dual_right.dx = slope;
+      dual_up.dy = -slope;
+    }
+    const Number scale = reciprocal(sqrt(dual_right * dual_right + dual_up * dual_up + Number(1.0)));
+    rays.direction.set(i, {dual_right * scale, dual_up * scale, -scale});
+  }
+}
+
+template <class Number>
+void start_panorama(const Camera& camera, const BatchArray& x, const BatchArray& y, LineBatch<Number>& rays) {
+  for (int i = 0; i < kBatchSize; ++i) {
+    rays.direction.set(i, direction_from_film<Number>(camera, {x[i], y[i]}));
+    rays.first.set(i, value_of(rays.direction.get(i)));
+  }
+}
+
+}  // namespace
+
+template <class Number>
+void start_lines(const Camera& camera, const BatchArray& x, const BatchArray& y, LineBatch<Number>& rays) {
+  if (camera.projection == Projection::Perspective) {
+    start_perspective(camera, x, y, rays);
+  } else {
+    start_panorama(camera, x, y, rays);
+  }
+  for (int i = 0; i < kBatchSize; ++i) {
+    rays.start.set(i, constant<Number>(Vec3(0)));
+    rays.path.v[i] = rays.shapiro.v[i] = rays.irregular[i] = rays.captured[i] = 0.0;
+  }
+}
+
+template <class Number>
+void pass_plane(const Deflectors& deflectors, std::size_t plane, const PlanesWork& work,
+                LineBatch<Number>& rays) {
+  const DeflectorPlane& passed = deflectors.planes[plane];
+  // With one plane there is nothing that light which turns back could meet.
+  const bool alone = deflectors.planes.size() == 1;
+  const double limit_z = alone || !deflectors.flat ? std::numeric_limits<double>::infinity() : 0.0;
+  if (work.shapiro) {
+    for (const Deflector& deflector : passed.deflectors) add_shapiro(deflector, rays);
+  }
+  if (work.reach == Reach::Far) {
+    pass_within<Number, Reach::Far>(passed, deflectors.finite_distance, work.path, limit_z, rays);
+  } else {
+    pass_within<Number, Reach::Near>(passed, deflectors.finite_distance, work.path, limit_z, rays);
+  }
+  if (!deflectors.flat && !alone) mark_turned(rays);
+}
+
+template void start_lines(const Camera&, const BatchArray&, const BatchArray&, LineBatch<double>&);
+template void start_lines(const Camera&, const BatchArray&, const BatchArray&, LineBatch<Dual>&);
+template void pass_plane(const Deflectors&, std::size_t, const PlanesWork&, LineBatch<double>&);
+template void pass_plane(const Deflectors&, std::size_t, const PlanesWork&, LineBatch<Dual>&);
+
+}  // namespace lensplane

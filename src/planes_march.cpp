@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "src/planes_march.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/rotation.h"
+
+namespace lensplane {
+namespace {
+
+template <class Number>
+struct Line {
+  Vector<Number> start;
+  Vector<Number> direction;
+};
+
+template <class Number>
+Vector<Number> constant(const Vec3& v) {
+  return {Number(v.x), Number(v.y), Number(v.z)};
+}
+
+/// What one plane does to a ray.
+template <class Number>
+struct Turning {
+  Number ahead;      // from the start of the ray to the plane's reference point on it, metres; may be negative
+  Line<Number> out;  // where the ray goes on
+  Number arc;        // further length of the path: the foot point's way round the masses
+};
+
+/// The deflectors' sums over one plane. Each deflector's foot point lies `along` past the reference point;
+/// `across` leads from the foot point to the mass.
+template <class Number>
+struct PlaneSums {
+  Vector<Number> bend = constant<Number>(Vec3(0));     // sum of alpha, towards the masses
+  Vector<Number> kink = constant<Number>(Vec3(0));     // sum of along alpha: bends happen at the foot points
+  Vector<Number> shift = constant<Number>(Vec3(0));    // sum of alpha^2 across
+  Vector<Number> outward = constant<Number>(Vec3(0));  // sum of (n - 1) across
+  Number arc = 0.0;                                    // sum of alpha b
+};
+
+/// The ray's line after the plane: its direction turned by the sum of the angles, its foot points about their
+/// masses. For one deflector this is the rotation about it, exactly.
+template <class Number>
+Line<Number> turned(const Vector<Number>& reference, const Vector<Number>& direction,
+                    const PlaneSums<Number>& sums) {
+  const Turn<Number> r = turn(sums.bend.dot(sums.bend));
+  const Vector<Number> inward = sums.kink * r.sine + sums.shift * r.versine + sums.outward;
+  // The same rotation applied to `inward`, which is perpendicular to `direction`.
+  const Vector<Number> rotated =
+      inward - (sums.bend * r.versine + direction * r.sine) * inward.dot(sums.bend);
+  return {reference - rotated, direction * r.cosine + sums.bend * r.sine};
+}
+
+/// Where the ray that ends `path` goes on behind a plane; nothing when it is captured there.
+template <class Number>
+std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_distance,
+                                       RayPath<Number>& path) {
+  const RaySegment<Number>& ray = path.segments.back();
+  const Number ahead = (constant<Number>(plane.centre) - ray.start).dot(ray.direction);
+  const Vector<Number> reference = ray.start + ray.direction * ahead;
+  PlaneSums<Number> sums;
+  for (const Deflector& deflector : plane.deflectors) {
+    const Vector<Number> position = constant<Number>(deflector.position);
+    const Vector<Number> to_mass = position - reference;
+    const Number along = to_mass.dot(ray.direction);
+    const Vector<Number> across = to_mass - ray.direction * along;
+    const Number b = length(across);
+    std::optional<Number> from_camera;
+    if (finite_distance) from_camera = position.dot(ray.direction);
+    const auto bent = bend_by(deflector, b, from_camera);
+    if (!bent) return std::nullopt;
+    sums.bend += across * bent->per_b;
+    sums.kink += across * (bent->per_b * along);
+    sums.shift += across * (bent->alpha * bent->alpha);
+    if (finite_distance) sums.outward += across * (deflector.index - 1.0);
+    sums.arc += bent->alpha * b;
+    path.passages.push_back(
+        {deflector.m, length(deflector.position), b, path.lengths.back() + ahead + along});
+  }
+  return Turning<Number>{ahead, turned(reference, ray.direction, sums), sums.arc};
+}
+
+/// Lets the ray go on from a plane. With finite distance its path never goes backwards: a mass behind the
+/// camera bends it where it is.
+template <class Number>
+void go_on(const Turning<Number>& turning, bool finite_distance, RayPath<Number>& path) {
+  const bool behind = finite_distance && value_of(turning.ahead) < 0.0;
+  const Number way = behind ? Number(0.0) : turning.ahead;
+  const Vector<Number> start = turning.out.start + turning.out.direction * (way - turning.ahead);
+  path.segments.back().length = way;
+  path.segments.push_back({start, turning.out.direction});
+  path.lengths.push_back(path.lengths.back() + way + turning.arc);
+  ++path.bends;
+}
+
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// The plane whose closest approach is the nearest ahead of a ray, among those that it does not just move
+/// away from: `left` holds the direction in which it left each plane, zero where it never was.
+std::size_t nearest_ahead(const std::vector<DeflectorPlane>& planes, const std::vector<Vec3>& left,
+                          const Vec3& start, const Vec3& direction, std::size_t last) {
+  std::size_t nearest = kNone;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const bool returns = left[i] == Vec3(0) || left[i].dot(direction) < 0.0;
+    const double ahead = (planes[i].centre - start).dot(direction);
+    if (i == last || !returns || !(ahead > 0.0) || !(ahead < least)) continue;
+    least = ahead;
+    nearest = i;
+  }
+  return nearest;
+}
+
+/// Follows light that has turned back, or runs along the screen, until no mass lies ahead.
+template <class Number>
+void march_on(const Deflectors& deflectors, std::size_t passed, RayPath<Number>& path) {
+  std::vector<Vec3> left(deflectors.planes.size(), Vec3(0));
+  for (std::size_t i = 0; i < passed; ++i) left[i] = value_of(path.segments[i + 1].direction);
+  for (std::size_t last = passed - 1;;) {
+    const RaySegment<Number>& ray = path.segments.back();
+    const std::size_t next =
+        nearest_ahead(deflectors.planes, left, value_of(ray.start), value_of(ray.direction), last);
+    if (next == kNone) return;
+    const auto turning = turn_at(deflectors.planes[next], false, path);
+    path.captured = !turning || path.bends == kMaxCrossings;
+    if (path.captured) return;
+    go_on(*turning, false, path);
+    left[next] = value_of(path.segments.back().direction);
+    last = next;
+  }
+}
+
+/// Does light no longer move away from the screen; without a screen: has it turned by more than a right angle?
+template <class Number>
+bool turned_back(const Deflectors& deflectors, const RayPath<Number>& path) {
+  const Vec3 direction = value_of(path.segments.back().direction);
+  if (deflectors.flat) return !(direction.z < 0.0);
+  return std::any_of(path.segments.begin(), path.segments.end(), [&](const RaySegment<Number>& s) {
+    return value_of(s.direction).dot(direction) < 0.0;
+  });
+}
+
+template <class Number>
+Bend<Number> full_bend(const Deflector& deflector, const Number& b) {
+  const Deflection law = entry_of(deflector.law).deflection(deflector.m, value_of(b));
+  const Number alpha = chained(b, law.alpha, law.dalpha_db);
+  return {alpha, alpha / b};
+}
+
+}  // namespace
+
+template <class Number>
+std::optional<Bend<Number>> bend_by(const Deflector& deflector, const Number& b,
+                                    const std::optional<Number>& along) {
+  const double m = deflector.m;
+  const double b_c = entry_of(deflector.law).capture_ratio * m;
+  const double b_far = deflector.index * value_of(b);
+  if (!along) {
+    if (b_far <= b_c) return std::nullopt;
+    return full_bend(deflector, b);
+  }
+  const bool ahead = value_of(*along) >= 0.0;
+  const Number r = length(Vector<Number>(*along, b, Number(0.0)));  // from the mass to the camera
+  const bool inside = value_of(r) < kPhotonSphere * m;
+  if (ahead ? inside || b_far <= b_c : inside && b_far >= b_c) return std::nullopt;
+
+  // 1 + cos R, over b and over b^2: behind the camera without cancellation, and finite as b -> 0.
+  const Number cosine = *along / r;
+  const Number per_b2 = ahead ? (1.0 + cosine) / (b * b) : 1.0 / (r * r * (1.0 - cosine));
+  const Number per_b = per_b2 * b;
+  const Number nearest = deflector.index * (ahead ? b : r);
+  const Number excess = full_bend(deflector, nearest).alpha - (4.0 * m) / nearest;
+  const Number excess_share = 0.25 * excess * (2.0 - cosine) * per_b * b;  // h(cos R), but for a factor
+  const double weak = 2.0 * m / deflector.index;
+  return Bend<Number>{weak * per_b + excess_share * per_b * b, weak * per_b2 + excess_share * per_b};
+}
+
+template <class Number>
+RayPath<Number> march_planes(const Deflectors& deflectors, const Vector<Number>& direction) {
+  RayPath<Number> path = path_from<Number>(constant<Number>(Vec3(0)), direction);
+  path.captured = deflectors.blind;
+  std::size_t passed = 0;
+  while (passed < deflectors.outward && !path.captured) {
+    const auto turning = turn_at(deflectors.planes[passed], deflectors.finite_distance, path);
+    path.captured = !turning;
+    if (path.captured) break;
+    go_on(*turning, deflectors.finite_distance, path);
+    ++passed;
+    if (deflectors.flat && !(value_of(path.segments.back().direction.z) < 0.0)) break;
+  }
+  if (!path.captured && passed > 0 && turned_back(deflectors, path)) march_on(deflectors, passed, path);
+  return path;
+}
+
+template std::optional<Bend<double>> bend_by(const Deflector&, const double&, const std::optional<double>&);
+template std::optional<Bend<Dual>> bend_by(const Deflector&, const Dual&, const std::optional<Dual>&);
+template RayPath<double> march_planes(const Deflectors&, const Vec3&);
+template RayPath<Dual> march_planes(const Deflectors&, const DualVec3&);
+
+}  // namespace lensplane

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The path of one ray as the plane methods know it: straight stretches, and the masses that it passes.
+//
+// A template over its number type: with Dual numbers everything comes with its derivatives by the film
+// position.
+
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "src/basis.h"
+#include "src/dual.h"
+
+namespace lensplane {
+
+/// A straight stretch of a ray.
+template <class Number>
+struct RaySegment {
+  Vector<Number> start;                                     // metres
+  Vector<Number> direction;                                 // unit vector
+  Number length = std::numeric_limits<double>::infinity();  // metres
+};
+
+/// A mass that a ray has passed, as the arrival time needs it.
+template <class Number>
+struct Passage {
+  double m;         // geometric mass, metres
+  double distance;  // metres from the camera to the mass
+  Number b;         // impact parameter, metres
+  Number path;      // metres along the ray from the camera to its closest approach; negative behind the start
+};
+
+/// A ray from the camera to where it ends or leaves.
+template <class Number>
+struct RayPath {
+  std::vector<RaySegment<Number>> segments;  // never empty; the last one is infinite unless it is captured
+  std::vector<Number> lengths;               // metres along the ray from the camera to each segment's start
+  std::vector<Passage<Number>> passages;
+  int bends = 0;          // planes that bent it
+  bool captured = false;  // it ended in a mass, or found no way out between the planes
+};
+
+/// A ray that has crossed planes this often, to and fro, is taken to be captured.
+inline constexpr int kMaxCrossings = 1000;
+
+/// A path that begins at `start` along the unit vector `direction`.
+template <class Number>
+RayPath<Number> path_from(const Vector<Number>& start, const Vector<Number>& direction) {
+  return {{{start, direction}}, {Number(0.0)}, {}};
+}
+
+}  // namespace lensplane
