@@ -14,12 +14,19 @@
 
 namespace lensplane {
 
-/// A perspective camera with square pixels.
+// Perspective  straight lines stay straight; square pixels
+// LatLong      the whole sphere over the frame, longitude by latitude; no field of view
+// Fisheye      equidistant: pixels from the centre in proportion to the angle from the axis; square pixels
+enum class Projection { Perspective, LatLong, Fisheye };
+
+/// Where the scene is seen from, and how it comes onto the film.
 struct Camera {
-  int width = 0;       // pixels of the output frame
-  int height = 0;      // pixels of the output frame
-  int overscan = 0;    // further pixels on every side; the field of view does not count them
-  double fov_rad = 0;  // full horizontal angle across `width`, in (0, pi)
+  int width = 0;     // pixels of the output frame
+  int height = 0;    // pixels of the output frame
+  int overscan = 0;  // further pixels on every side; the field of view does not count them
+  Projection projection = Projection::Perspective;
+  double fov_rad = 0;  // full angle: perspective across `width`, in (0, pi); fisheye across its circle, the
+                       // largest that the frame holds, in (0, 2 pi]; of no meaning for lat-long
   Vec3 position{0};    // metres
   Basis axes;          // world from camera: looks along -z, +x to the right, +y up
 

@@ -42,6 +42,7 @@ Fingerprint fingerprint_of_trace(const Scene& scene, const Plan& plan) {
   print.add(kVersion).add(std::string(name_of(plan.method)));
   const Camera& camera = scene.camera;
   print.add(camera.width).add(camera.height).add(camera.overscan).add(camera.fov_rad);
+  print.add(static_cast<int>(camera.projection));
   print.add(camera.position).add(camera.axes);
   for (const Lens& lens : scene.lenses) print.add("lens").add(lens.m).add(lens.position);
   for (const Surface& surface : scene.surfaces) {

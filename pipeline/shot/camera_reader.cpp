@@ -16,30 +16,28 @@ constexpr int kMaxResolution = 65536;
 constexpr int kMaxOverscan = 16384;
 constexpr int kMaxPixels = 1 << 28;  // 16384 x 16384
 
-enum class ProjectionKind { Perspective, LatLong, Fisheye };
 constexpr std::array<std::string_view, 3> kProjectionNames = {"perspective", "latlong", "fisheye"};
 
-ProjectionKind read_projection(const Value& camera, NotYet& not_yet) {
+Projection read_projection(const Value& camera) {
   const auto projection = camera.find("projection");
-  if (!projection) return ProjectionKind::Perspective;
-  const auto kind = static_cast<ProjectionKind>(projection->choice(kProjectionNames));
-  if (kind != ProjectionKind::Perspective) not_yet.add(*projection, projection->text());
-  return kind;
+  return projection ? static_cast<Projection>(projection->choice(kProjectionNames)) : Projection::Perspective;
 }
 
-double read_fov(const Value& fov, ProjectionKind kind) {
+double read_fov(const Value& fov, Projection projection) {
   const double angle = fov.positive(Dimension::Angle);
   if (angle < kNarrowestFov)
     fov.refuse(in_quotes(fov.text()) + " is narrower than any picture; allowed: from 1e-15 rad");
-  if (kind == ProjectionKind::Perspective && !(angle < kPi)) {
+  if (projection == Projection::Perspective && !(angle < kPi)) {
     fov.refuse(in_quotes(fov.text()) +
                "; allowed for a perspective camera: more than 0 deg and less than 180 deg");
   }
-  if (angle > 2.0 * kPi * (1.0 + 1e-12)) fov.refuse(in_quotes(fov.text()) + "; allowed: up to 360 deg");
-  return angle;
+  // Conversion to radians may leave 360 deg a rounding above.
+  if (projection == Projection::Fisheye && angle > 2.0 * kPi * (1.0 + 1e-12))
+    fov.refuse(in_quotes(fov.text()) + "; allowed for a fisheye camera: more than 0 deg and up to 360 deg");
+  return std::min(angle, 2.0 * kPi);
 }
 
-std::variant<Keyed<double>, FocalLength> read_field_of_view(const Value& camera, ProjectionKind kind) {
+std::variant<Keyed<double>, FocalLength> read_perspective_fov(const Value& camera) {
   const auto fov = camera.find("fov");
   const auto focal_length = camera.find("focal_length");
   const auto film_width = camera.find("film_width");
@@ -50,10 +48,33 @@ std::variant<Keyed<double>, FocalLength> read_field_of_view(const Value& camera,
     return FocalLength{read_keyed_positive(*focal_length, Dimension::Length),
                        read_keyed_positive(width, Dimension::Length), focal_length->location()};
   }
-  if (!fov && kind == ProjectionKind::LatLong) return Keyed<double>::constant(2.0 * kPi);
   const Value needed =
       camera.require("fov", "the full horizontal angle, like 3 deg (or focal_length and film_width)");
-  return read_keyed(needed, [kind](const Value& v) { return read_fov(v, kind); });
+  return read_keyed(needed, [](const Value& v) { return read_fov(v, Projection::Perspective); });
+}
+
+Keyed<double> read_fisheye_fov(const Value& camera) {
+  for (const char* key : {"focal_length", "film_width"}) {
+    if (const auto value = camera.find(key))
+      value->refuse("given for a fisheye camera; allowed: with perspective only, write fov");
+  }
+  const Value needed = camera.require("fov", "the full angle across the circle, like 180 deg");
+  return read_keyed(needed, [](const Value& v) { return read_fov(v, Projection::Fisheye); });
+}
+
+Keyed<double> whole_sphere(const Value& camera) {
+  for (const char* key : {"fov", "focal_length", "film_width"}) {
+    if (const auto value = camera.find(key))
+      value->refuse("given for a latlong camera, which sees the whole sphere; allowed: with perspective" +
+                    std::string(key == std::string_view("fov") ? " and fisheye only" : " only"));
+  }
+  return Keyed<double>::constant(2.0 * kPi);
+}
+
+std::variant<Keyed<double>, FocalLength> read_field_of_view(const Value& camera, Projection projection) {
+  if (projection == Projection::LatLong) return whole_sphere(camera);
+  if (projection == Projection::Fisheye) return read_fisheye_fov(camera);
+  return read_perspective_fov(camera);
 }
 
 template <class Index>
@@ -128,7 +149,7 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not
   camera.only_keys({"projection", "resolution", "fov", "focal_length", "film_width", "position", "look_at",
                     "rotation", "up", "overscan", "shutter", "from"});
   CameraTrack track;
-  const ProjectionKind kind = read_projection(camera, not_yet);
+  track.projection = read_projection(camera);
   const auto size = camera.require("resolution", "[width, height] in pixels")
                         .items(2, "[width, height] in pixels, like [1920, 1080]");
   track.width = size[0].integer(1, kMaxResolution);
@@ -137,7 +158,7 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not
     from->text();
     not_yet.add(*from, "a camera from a file; write position, look_at and fov");
   } else {
-    track.fov = read_field_of_view(camera, kind);
+    track.fov = read_field_of_view(camera, track.projection);
   }
   if (const auto position = camera.find("position"))
     track.position = read_keyed_vector(*position, Dimension::Length);

@@ -14,6 +14,7 @@
 #include "pipeline/shot/keyed.h"
 #include "pipeline/shot/location.h"
 #include "src/method.h"
+#include "src/scene.h"
 
 namespace lensplane {
 
@@ -27,7 +28,7 @@ struct LocatedText {
 /// The narrowest field of view, in radians: narrower ones cannot be told from nothing in double precision.
 inline constexpr double kNarrowestFov = 1e-15;
 
-/// The camera's field of view as the focal length of a lens.
+/// A perspective camera's field of view as the focal length of a lens.
 struct FocalLength {
   Keyed<double> focal_length;  // metres
   Keyed<double> film_width;    // metres
@@ -57,7 +58,8 @@ struct CameraTrack {
   int width = 0;
   int height = 0;
   int overscan = 0;
-  std::variant<Keyed<double>, FocalLength> fov;  // radians across the width
+  Projection projection = Projection::Perspective;
+  std::variant<Keyed<double>, FocalLength> fov;  // radians, as Camera::fov_rad
   Keyed<Vec3> position;
   std::variant<Rotation, LookAt> orientation;
 };

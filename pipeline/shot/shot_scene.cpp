@@ -65,6 +65,7 @@ Scene scene_at(const Shot& shot, double frame) {
   camera.width = shot.camera.width;
   camera.height = shot.camera.height;
   camera.overscan = shot.camera.overscan;
+  camera.projection = shot.camera.projection;
   camera.fov_rad = fov_at(shot.camera, frame);
   camera.position = value_at(shot.camera.position, frame);
   camera.axes = axes_at(shot, camera.position, frame);

@@ -22,7 +22,7 @@ TEST(Fingerprint, IsTheSameForTheSameAndAnotherForEveryChange) {
   EXPECT_EQ(print_of(scene), print_of(seed_fig6(100)));
   EXPECT_EQ(print_of(scene).size(), 40U);
   std::set<std::string> prints = {print_of(scene), print_of(scene, Method::Kishi)};
-  std::vector<Scene> changed(14, scene);
+  std::vector<Scene> changed(15, scene);
   changed[0].camera.width = 101;
   changed[1].camera.overscan = 2;
   changed[2].camera.fov_rad *= 1 + 1e-15;
@@ -38,8 +38,9 @@ TEST(Fingerprint, IsTheSameForTheSameAndAnotherForEveryChange) {
   sphere(11).centre.x = 1e-9;
   sphere(12).radius *= 1 + 1e-15;
   sphere(13).axes = basis_from_zxy({0, 0, 1e-9});
+  changed[14].camera.projection = Projection::Fisheye;
   for (const Scene& other : changed) prints.insert(print_of(other));
-  EXPECT_EQ(prints.size(), 16U);
+  EXPECT_EQ(prints.size(), 17U);
 }
 
 TEST(Fingerprint, TextsDoNotRunTogether) {

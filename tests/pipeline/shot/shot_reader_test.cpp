@@ -81,6 +81,55 @@ TEST(ShotReader, FrameRatesAreRatios) {
   }
 }
 
+TEST(ShotReader, ReadsEveryProjection) {
+  const auto fov = [](const Shot& shot) { return value_at(std::get<Keyed<double>>(shot.camera.fov), 0); };
+  EXPECT_EQ(example_shot().camera.projection, Projection::Perspective);
+  EXPECT_EQ(example_shot({"camera.projection=perspective"}).camera.projection, Projection::Perspective);
+  const Shot fisheye = example_shot({"camera.projection=fisheye", "camera.fov=180 deg"});
+  EXPECT_EQ(fisheye.camera.projection, Projection::Fisheye);
+  EXPECT_DOUBLE_EQ(fov(fisheye), kPi);
+  for (const char* whole : {"360 deg", "21600 arcmin", "6.283185307179587 rad"}) {
+    const Shot shot = example_shot({"camera.projection=fisheye", std::string("camera.fov=") + whole});
+    EXPECT_DOUBLE_EQ(fov(shot), 2 * kPi);
+    EXPECT_LE(fov(shot), 2 * kPi) << whole;
+  }
+  const Shot latlong = example_shot({"camera.projection=latlong", "camera.fov=null"});
+  EXPECT_EQ(latlong.camera.projection, Projection::LatLong);
+}
+
+TEST(ShotReader, FieldsOfViewFitTheirProjection) {
+  const std::string latlong = "projection: latlong\n  ", fisheye = "projection: fisheye\n  ";
+  EXPECT_EQ(line_for("fov: 3 deg", "fov: 180 deg"),
+            "s.yaml:7:8: camera.fov: \"180 deg\"; allowed for a perspective camera: more than 0 deg and less "
+            "than 180 deg");
+  EXPECT_EQ(
+      line_for("fov: 3 deg", fisheye + "fov: 361 deg"),
+      "s.yaml:8:8: camera.fov: \"361 deg\"; allowed for a fisheye camera: more than 0 deg and up to 360 "
+      "deg");
+  EXPECT_EQ(
+      line_for("fov: 3 deg", fisheye + "fov: {keys: {1001: 200 deg, 1002: 360.001 deg}}"),
+      "s.yaml:8:37: camera.fov.keys.1002: \"360.001 deg\"; allowed for a fisheye camera: more than 0 deg "
+      "and up to 360 deg");
+  EXPECT_EQ(line_for("fov: 3 deg", "projection: fisheye"),
+            "s.yaml:6:3: camera.fov: missing; needed: the full angle across the circle, like 180 deg");
+  EXPECT_EQ(line_for("fov: 3 deg", fisheye + "focal_length: 8 mm"),
+            "s.yaml:8:17: camera.focal_length: given for a fisheye camera; allowed: with perspective only, "
+            "write fov");
+  EXPECT_EQ(line_for("fov: 3 deg", fisheye + "fov: 90 deg\n  film_width: 36 mm"),
+            "s.yaml:9:15: camera.film_width: given for a fisheye camera; allowed: with perspective only, "
+            "write fov");
+  EXPECT_EQ(line_for("fov: 3 deg", latlong + "fov: 360 deg"),
+            "s.yaml:8:8: camera.fov: given for a latlong camera, which sees the whole sphere; allowed: with "
+            "perspective and fisheye only");
+  EXPECT_EQ(line_for("fov: 3 deg", latlong + "focal_length: 8 mm"),
+            "s.yaml:8:17: camera.focal_length: given for a latlong camera, which sees the whole sphere; "
+            "allowed: with perspective only");
+  EXPECT_EQ(line_for("fov: 3 deg", latlong + "film_width: 36 mm"),
+            "s.yaml:8:15: camera.film_width: given for a latlong camera, which sees the whole sphere; "
+            "allowed: with perspective only");
+  EXPECT_EQ(line_for("fov: 3 deg", "projection: latlong"), "");
+}
+
 TEST(ShotReader, KeysOfEveryKindAreRead) {
   const Shot shot =
       example_shot({"lenses.near.position={keys: {1001: [-8000 km, 0 km, -4e8 m], 1003: [8000 km, 0 km, -4e8 "
@@ -200,7 +249,6 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
 
 TEST(ShotReader, SaysWhatIsNotAvailableYet) {
   const std::pair<const char*, const char*> later[] = {
-      {"camera.projection=fisheye", "camera.projection: not available yet: fisheye"},
       {"camera.overscan=auto", "camera.overscan: not available yet: auto"},
       {"camera.shutter={open: -0.25, close: 0.25, samples: 8}", "camera.shutter.samples: not available yet"},
       {"camera.from=track.chan", "camera.from: not available yet"},

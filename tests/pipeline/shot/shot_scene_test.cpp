@@ -30,6 +30,19 @@ TEST(ShotScene, FocalLengthAndFilmWidthMakeTheFieldOfView) {
   EXPECT_DOUBLE_EQ(scene_at(shot, 1001).camera.fov_rad, kPi / 2);
 }
 
+TEST(ShotScene, CameraHasTheProjectionOfTheShot) {
+  EXPECT_EQ(scene_at(example_shot(), 1001).camera.projection, Projection::Perspective);
+  const Camera fisheye =
+      scene_at(
+          example_shot({"camera.projection=fisheye", "camera.fov={keys: {1001: 100 deg, 1003: 300 deg}}"}),
+          1002)
+          .camera;
+  EXPECT_EQ(fisheye.projection, Projection::Fisheye);
+  EXPECT_DOUBLE_EQ(fisheye.fov_rad, 200 * kPi / 180);
+  const Shot latlong = example_shot({"camera.projection=latlong", "camera.fov=null"});
+  EXPECT_EQ(scene_at(latlong, 1001).camera.projection, Projection::LatLong);
+}
+
 TEST(ShotScene, CameraLooksAtPointsLensesAndLayers) {
   const auto forward = [](const std::string& target) {
     return -scene_at(example_shot({"camera.position=[0 m, 3e8 m, 0 m]", "camera.look_at=" + target}), 1001)
