@@ -15,7 +15,7 @@ DeflectorPlane deflector_plane(const LensPlane& plane, Law law, bool finite_dist
   DeflectorPlane result;
   for (const Source& source : plane.sources) {
     const double index = finite_distance ? fermat_index(source.m, length(source.position)) : 1.0;
-    result.deflectors.push_back({source.m, source.position, law, index});
+    result.deflectors.push_back({source.m, source.position, law, source.lens, index});
     const auto count = static_cast<double>(result.deflectors.size());
     result.centre += (source.position - result.centre) / count;
   }

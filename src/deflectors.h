@@ -20,7 +20,8 @@ struct Deflector {
   double m;           // geometric mass, metres, > 0
   Vec3 position;      // metres, camera axes
   Law law;
-  double index = 1;   // Fermat index n of its metric at the camera; 1 without finite distance
+  std::size_t lens = 0;  // its number in the scene
+  double index = 1;    // Fermat index n of its metric at the camera; 1 without finite distance
 };
 
 /// Deflectors that bend a ray together: their bends are added up, so that their order has no influence.

@@ -1,24 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The deflection map of a frame: for every pixel centre, which point of a surface is seen there.
+// The deflection map of a frame: for every pixel centre, which point of a surface is seen there, and the
+// passes that were called for.
 
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "src/tracer.h"
 
 namespace lensplane {
 
+/// One channel of a data file, finite everywhere: what is larger than any float (the depth of what lies at
+/// infinity) is the largest float.
+struct Pass {
+  std::string_view channel;  // "lensing.magnification", ...
+  std::vector<float> values;
+};
+
 /// The map of one surface: row by row from the top, the overscan included. Where `valid` is 0, s = t = 0.
 struct LensMap {
   int width = 0;
   int height = 0;
   std::vector<float> s, t, valid;
+  std::vector<Pass> passes;  // what the plan's effects call for, in the order of kEffectNames
+};
+
+/// Rows of the film, counted from the top of the overscan.
+struct RowRange {
+  int begin = 0;
+  int end = 0;
 };
 
 /// Traces all pixel centres of the tracer's camera, one map per surface. Runs in parallel; the maps do not
 /// depend on the number of threads.
 std::vector<LensMap> trace_maps(const Tracer& tracer);
+
+/// The same for some rows only: maps of any size can be made in pieces. Pieces that begin at multiples of
+/// TileLevels::size are traced fastest.
+std::vector<LensMap> trace_maps(const Tracer& tracer, RowRange rows);
 
 }  // namespace lensplane

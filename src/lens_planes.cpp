@@ -24,7 +24,7 @@ std::vector<PlacedSource> sources_in_camera_axes(const Scene& scene) {
     if (lens.m == 0.0) continue;
     const Vec3 p = scene.camera.axes.local_from_parent(lens.position - scene.camera.position);
     const double distance = std::hypot(p.x, p.y, p.z);
-    placed.push_back({{lens.m, p}, i, distance, flat ? -p.z : distance});
+    placed.push_back({{lens.m, p, i}, i, distance, flat ? -p.z : distance});
   }
   return placed;
 }
@@ -78,8 +78,8 @@ std::vector<LensPlane> perpendicular_planes(const std::vector<PlacedSource>& pla
 /// Sources as good as at one point become one; long double, because thousands may.
 std::vector<Source> bodies(std::vector<Source> sources) {
   std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
-    return std::tie(a.position.x, a.position.y, a.position.z, a.m) <
-           std::tie(b.position.x, b.position.y, b.position.z, b.m);
+    return std::tie(a.position.x, a.position.y, a.position.z, a.m, a.lens) <
+           std::tie(b.position.x, b.position.y, b.position.z, b.m, b.lens);
   });
   std::vector<Source> merged;
   for (auto first = sources.begin(); first != sources.end();) {
@@ -93,7 +93,7 @@ std::vector<Source> bodies(std::vector<Source> sources) {
       m += last->m;
       centre += apart * (last->m / joint);
     }
-    merged.push_back({static_cast<double>(m), centre});
+    merged.push_back({static_cast<double>(m), centre, first->lens});
     first = last;
   }
   return merged;

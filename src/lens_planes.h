@@ -8,6 +8,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "src/method.h"
@@ -17,8 +18,9 @@ namespace lensplane {
 
 /// A point mass on a lens plane.
 struct Source {
-  double m;       // geometric mass, metres, > 0
-  Vec3 position;  // metres, camera axes
+  double m;              // geometric mass, metres, > 0
+  Vec3 position;         // metres, camera axes
+  std::size_t lens = 0;  // its number in the scene
 };
 
 /// The plane normal . x = distance and its sources.

@@ -58,7 +58,10 @@ bool cross(const LensPlane& plane, const Vector<Number>& crossing, const Number&
     const std::optional<Vector<Number>> bent = bend(v_ray, to_source, source.m);
     path.captured = !bent || path.bends == kMaxCrossings;
     if (path.captured) return false;
-    path.passages.push_back({source.m, length(source.position), length(to_source), travelled});
+    const Number b = length(to_source);
+    const Number alpha = chained(b, weak_deflection(source.m, value_of(b)),
+                                 -weak_deflection(source.m, value_of(b)) / value_of(b));
+    path.passages.push_back({source.lens, source.m, length(source.position), b, alpha, travelled});
     v_ray = *bent;
   }
   path.segments.push_back({crossing, v_ray});

@@ -1,25 +1,82 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The plan: what is simulated for a scene, as a value that can be printed and tested.
+// The plan: what is simulated for a scene, and why, as a value that can be printed and tested.
+//
+// By `planes` with the law left open, every choice comes with a bound, in pixels of the output frame, on what
+// it leaves out: how much farther a law of more terms, a lens left out, or the finite distances would move
+// what any film position sees. The bounds add up to no more than the tolerance; see plan_bounds.h.
 
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "src/lens_planes.h"
+#include "src/deflectors.h"
+#include "src/effects.h"
+#include "src/method.h"
 
 namespace lensplane {
 
-struct Plan {
-  Method method = Method::ShinotsukaMakino;
-  std::vector<LensPlane> planes;  // in camera axes, as lens_planes orders them
+enum class Choice { Auto, On, Off };
+
+/// What the shot asks of the trace.
+struct TraceSettings {
+  Method method = Method::Planes;
+  std::optional<Law> law;                 // nothing: as the tolerance needs it
+  double tolerance_px = 0.05;             // what may be left out, in pixels of the output frame, > 0
+  Choice finite_distance = Choice::Auto;  // of the camera and of surfaces
+  Effects effects;                        // called for by outputs
 };
 
-/// What it takes to trace `scene` by `method`.
+/// What becomes of one lens of the scene.
+struct LensPlan {
+  std::size_t lens = 0;   // its number in the scene
+  bool culled = false;    // left out
+  Law law = Law::Weak;    // the highest that it needs anywhere on the film
+  double moves_px = 0;    // how far it moves what is seen, at most, over the film; infinite near its shadow
+  double bound_px = 0;    // how much of that is left out, at most
+  std::string reason;
+};
+
+/// What becomes of one effect.
+struct EffectPlan {
+  std::string name;
+  bool on = false;
+  double bound_px = 0;  // how far it would move what is seen, at most, if it is off
+  std::string reason;
+};
+
+/// Square tiles of the film, overscan included, from its upper left; each has its laws.
+struct TileLevels {
+  int size = 64;  // pixels
+  int columns = 0;
+  int rows = 0;
+  std::vector<std::uint8_t> level;  // index into Plan::recipes, row by row; empty: the last recipe everywhere
+};
+
+struct Plan {
+  Method method = Method::Planes;
+  Effects effects;                  // what is computed beside (s, t)
+  std::vector<LensPlane> planes;    // of the paper's methods, as lens_planes orders them
+  std::vector<Deflectors> recipes;  // of `planes`: cheapest first; the last simulates everything asked for
+  TileLevels tiles;
+  double geodesic_tolerance = 1e-9;  // radians
+
+  std::vector<LensPlan> lenses;     // by `planes`, in the order of the scene
+  std::vector<EffectPlan> choices;  // every effect, on or off
+  double bound_px = 0;              // all that is left out, at most
+};
+
+/// What it takes to trace `scene`.
+Plan plan_trace(const Scene& scene, const TraceSettings& settings);
+
+/// By `method` with nothing left out, nothing else called for.
 Plan plan_trace(const Scene& scene, Method method);
 
-/// The plan in one line: "shinotsuka-makino: weak law, 3 sources on 3 planes".
+/// The plan in one line: "planes: 3 lenses on 3 planes, laws weak 2, exact 1, nothing culled; finite distance
+/// off; within 0.021 px".
 std::string describe(const Plan& plan);
 
 }  // namespace lensplane

@@ -77,7 +77,8 @@ std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_
     if (finite_distance) sums.outward += across * (deflector.index - 1.0);
     sums.arc += bent->alpha * b;
     path.passages.push_back(
-        {deflector.m, length(deflector.position), b, path.lengths.back() + ahead + along});
+        {deflector.lens, deflector.m, length(deflector.position), b, bent->alpha,
+         path.lengths.back() + ahead + along});
   }
   return Turning<Number>{ahead, turned(reference, ray.direction, sums), sums.arc};
 }

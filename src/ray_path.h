@@ -7,6 +7,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -26,9 +27,11 @@ struct RaySegment {
 /// A mass that a ray has passed, as the arrival time needs it.
 template <class Number>
 struct Passage {
+  std::size_t lens;  // its number in the scene
   double m;         // geometric mass, metres
   double distance;  // metres from the camera to the mass
   Number b;         // impact parameter, metres
+  Number alpha;     // angle by which it bent the ray, radians
   Number path;      // metres along the ray from the camera to its closest approach; negative behind the start
 };
 
