@@ -38,7 +38,8 @@ constexpr std::array kChannels = {
     Channel{&Effects::direction, "dir.z", [](const SurfaceBatch& b, int i) { return b.passes->dir_z[i]; }},
     Channel{&Effects::shadow, "lensing.shadow",
             [](const SurfaceBatch& b, int i) { return b.outcome[i] == Outcome::Captured ? 1.0 : 0.0; }},
-    Channel{&Effects::bends, "lensing.bends", [](const SurfaceBatch& b, int i) { return b.passes->bends[i]; }},
+    Channel{&Effects::bends, "lensing.bends",
+            [](const SurfaceBatch& b, int i) { return b.passes->bends[i]; }},
     Channel{&Effects::depth, "depth.z",
             [](const SurfaceBatch& b, int i) { return b.outcome[i] == Outcome::Hit ? b.distance[i] : 0.0; }},
 };
@@ -86,8 +87,9 @@ void trace_tile(const Tracer& tracer, const Tile& tile, RowRange rows, TraceBatc
     tracer.trace(batch);
     for (int row = top; row < std::min(top + deep, tile.bottom); ++row) {
       for (std::size_t k = 0; k < maps.size(); ++k) {
-        const std::size_t at = static_cast<std::size_t>(row - rows.begin) * static_cast<std::size_t>(maps[k].width) +
-                               static_cast<std::size_t>(tile.left);
+        const std::size_t at =
+            static_cast<std::size_t>(row - rows.begin) * static_cast<std::size_t>(maps[k].width) +
+            static_cast<std::size_t>(tile.left);
         store(batch.surfaces[k], (row - top) * width, width, at, maps[k]);
       }
     }

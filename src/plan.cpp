@@ -96,7 +96,8 @@ void choose_laws(const FilmBounds& bounds, double budget_px, std::vector<LensPla
 std::string reason_of(const LensPlan& lens, const LensBound& bound) {
   if (lens.culled) return "would move no pixel by more than " + in_pixels(lens.moves_px);
   const std::string near = bound.wild ? "; exact near it" : "";
-  if (lens.law == Law::Weak) return "more terms would move no pixel by more than " + in_pixels(bound.weak_px) + near;
+  if (lens.law == Law::Weak)
+    return "more terms would move no pixel by more than " + in_pixels(bound.weak_px) + near;
   if (lens.law == Law::SecondOrder) {
     return "the weak law would be up to " + in_pixels(bound.weak_px) + " off, this one " +
            in_pixels(bound.second_order_px) + near;
@@ -258,7 +259,8 @@ std::string describe(const Plan& plan) {
     std::snprintf(tolerance, sizeof tolerance, "%.2g", plan.geodesic_tolerance);
     std::size_t sources = 0;
     for (const LensPlane& plane : plan.planes) sources += plane.sources.size();
-    return text + ": " + std::to_string(sources) + (sources == 1 ? " lens" : " lenses") + ", curved rays to " + tolerance + " rad";
+    return text + ": " + std::to_string(sources) + (sources == 1 ? " lens" : " lenses") +
+           ", curved rays to " + tolerance + " rad";
   }
   if (plan.method != Method::Planes) {
     std::size_t sources = 0;

@@ -34,11 +34,11 @@ struct TraceSettings {
 
 /// What becomes of one lens of the scene.
 struct LensPlan {
-  std::size_t lens = 0;   // its number in the scene
-  bool culled = false;    // left out
-  Law law = Law::Weak;    // the highest that it needs anywhere on the film
-  double moves_px = 0;    // how far it moves what is seen, at most, over the film; infinite near its shadow
-  double bound_px = 0;    // how much of that is left out, at most
+  std::size_t lens = 0;  // its number in the scene
+  bool culled = false;   // left out
+  Law law = Law::Weak;   // the highest that it needs anywhere on the film
+  double moves_px = 0;   // how far it moves what is seen, at most, over the film; infinite near its shadow
+  double bound_px = 0;   // how much of that is left out, at most
   std::string reason;
 };
 

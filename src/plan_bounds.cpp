@@ -51,8 +51,8 @@ struct Pass {
 
 /// One plane as a bundle passes it.
 struct PassedPlane {
-  double way;      // from the last plane, and to its farthest foot point
-  double growth;   // sum over its masses
+  double way;              // from the last plane, and to its farthest foot point
+  double growth;           // sum over its masses
   std::size_t begin, end;  // its masses among the passes
 };
 

@@ -87,8 +87,8 @@ template <Law law, Reach reach, class Number>
   const double n = deflector.index;
   const Number r2 = along * along + b2;
   const Number cosine = along * reciprocal(sqrt(r2));
-  const Number per_b2 = select(ahead, 1.0 + cosine, Number(1.0)) *
-                        reciprocal(select(ahead, b2, r2 * (1.0 - cosine)));
+  const Number per_b2 =
+      select(ahead, 1.0 + cosine, Number(1.0)) * reciprocal(select(ahead, b2, r2 * (1.0 - cosine)));
   const double weak = 2.0 * deflector.m / n;
   Number per_b = weak * per_b2;
   if constexpr (law != Law::Weak) {
@@ -116,8 +116,10 @@ double nearest_b2(double m) {
 
 template <Reach reach, class Number>
 [[gnu::always_inline]] inline Turn<Number> turn_within(const Number& q) {
-  if constexpr (reach == Reach::Far) return short_turn(q);
-  else return near_turn(q);
+  if constexpr (reach == Reach::Far)
+    return short_turn(q);
+  else
+    return near_turn(q);
 }
 
 template <Reach reach>
@@ -286,12 +288,12 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
       const double along_normal = (r.cosine * t.q2 - sine_per_b * t.q1) * per_b2;
       return sum(scaled(across_out, along_across), scaled(normal, along_normal));
     };
-    const Tangent x = tangent_at(
-        Vec3(rays.start.x.dx[i], rays.start.y.dx[i], rays.start.z.dx[i]),
-        Vec3(rays.direction.x.dx[i], rays.direction.y.dx[i], rays.direction.z.dx[i]), across, normal, along);
-    const Tangent y = tangent_at(
-        Vec3(rays.start.x.dy[i], rays.start.y.dy[i], rays.start.z.dy[i]),
-        Vec3(rays.direction.x.dy[i], rays.direction.y.dy[i], rays.direction.z.dy[i]), across, normal, along);
+    const Tangent x = tangent_at(Vec3(rays.start.x.dx[i], rays.start.y.dx[i], rays.start.z.dx[i]),
+                                 Vec3(rays.direction.x.dx[i], rays.direction.y.dx[i], rays.direction.z.dx[i]),
+                                 across, normal, along);
+    const Tangent y = tangent_at(Vec3(rays.start.x.dy[i], rays.start.y.dy[i], rays.start.z.dy[i]),
+                                 Vec3(rays.direction.x.dy[i], rays.direction.y.dy[i], rays.direction.z.dy[i]),
+                                 across, normal, along);
     const Vec3 start_x = carried(x), start_y = carried(y), out_x = turned(x), out_y = turned(y);
     rays.start.set(i, dual_vector(start, start_x, start_y));
     rays.direction.set(i, dual_vector(out, out_x, out_y));
@@ -357,7 +359,8 @@ LENSPLANE_KERNEL void add_to_sums(const Deflector& deflector, LineBatch<Number>&
     sums.shift.set(i, sum(sums.shift.get(i), scaled(bend, strength.arc)));
     if constexpr (path) sums.arc.v[i] += value_of(strength.arc);
     const double b2_value = value_of(b2);
-    mark(i, limits.fit(ahead, b2_value) & turn_fits<reach>(value_of(q)), limits.capture(ahead, b2_value), rays);
+    mark(i, limits.fit(ahead, b2_value) & turn_fits<reach>(value_of(q)), limits.capture(ahead, b2_value),
+         rays);
   }
 }
 

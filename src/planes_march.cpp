@@ -24,7 +24,7 @@ Vector<Number> constant(const Vec3& v) {
 /// What one plane does to a ray.
 template <class Number>
 struct Turning {
-  Number ahead;      // from the start of the ray to the plane's reference point on it, metres; may be negative
+  Number ahead;  // from the start of the ray to the plane's reference point on it, metres; may be negative
   Line<Number> out;  // where the ray goes on
   Number arc;        // further length of the path: the foot point's way round the masses
 };
@@ -76,9 +76,8 @@ std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_
     sums.shift += across * (bent->alpha * bent->alpha);
     if (finite_distance) sums.outward += across * (deflector.index - 1.0);
     sums.arc += bent->alpha * b;
-    path.passages.push_back(
-        {deflector.lens, deflector.m, length(deflector.position), b, bent->alpha,
-         path.lengths.back() + ahead + along});
+    path.passages.push_back({deflector.lens, deflector.m, length(deflector.position), b, bent->alpha,
+                             path.lengths.back() + ahead + along});
   }
   return Turning<Number>{ahead, turned(reference, ray.direction, sums), sums.arc};
 }
@@ -133,14 +132,14 @@ void march_on(const Deflectors& deflectors, std::size_t passed, RayPath<Number>&
   }
 }
 
-/// Does light no longer move away from the screen; without a screen: has it turned by more than a right angle?
+/// Does light no longer move away from the screen; without a screen: has it turned by more than a right
+/// angle?
 template <class Number>
 bool turned_back(const Deflectors& deflectors, const RayPath<Number>& path) {
   const Vec3 direction = value_of(path.segments.back().direction);
   if (deflectors.flat) return !(direction.z < 0.0);
-  return std::any_of(path.segments.begin(), path.segments.end(), [&](const RaySegment<Number>& s) {
-    return value_of(s.direction).dot(direction) < 0.0;
-  });
+  return std::any_of(path.segments.begin(), path.segments.end(),
+                     [&](const RaySegment<Number>& s) { return value_of(s.direction).dot(direction) < 0.0; });
 }
 
 template <class Number>

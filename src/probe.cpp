@@ -11,8 +11,8 @@ namespace lensplane {
 namespace {
 
 ProbedSurface probed(const SurfaceHit<Dual>& hit) {
-  return {hit.outcome, {hit.st.s.v, hit.st.t.v}, hit.st.s.dx, hit.st.s.dy, hit.st.t.dx, hit.st.t.dy,
-          hit.magnification, hit.delay / kLightSpeed, hit.distance};
+  return {hit.outcome,       {hit.st.s.v, hit.st.t.v}, hit.st.s.dx, hit.st.s.dy, hit.st.t.dx, hit.st.t.dy,
+          hit.magnification, hit.delay / kLightSpeed,  hit.distance};
 }
 
 void add_crossings(const RayPath<double>& path, Probe& result) {

@@ -124,15 +124,16 @@ void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k) {
 }
 
 template <class Number>
-void see_spheres(const Sight& sight, const Ends& ends, int bends, LineBatch<Number>& rays, TraceBatch& batch) {
+void see_spheres(const Sight& sight, const Ends& ends, int bends, LineBatch<Number>& rays,
+                 TraceBatch& batch) {
   alignas(64) BatchArray entry;
   for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
     const auto* sphere = std::get_if<Sphere>(&sight.surfaces[k]);
     if (!sphere) continue;
     VectorLane<Number> start = rays.start;
     for (int i = 0; sight.finite && i < kBatchSize; ++i) {
-      start.set(i, start.get(i) +
-                       finite_shift(*sight.finite, start.get(i), rays.direction.get(i), sphere->centre));
+      start.set(
+          i, start.get(i) + finite_shift(*sight.finite, start.get(i), rays.direction.get(i), sphere->centre));
     }
     enter_sphere(*sphere, start, rays.direction, ends, entry);
     SurfaceBatch& surface = batch.surfaces[k];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From rays to results: what rays on their way meet on each surface, written to a SurfaceBatch with the passes
-// that are called for.
+// From rays to results: what rays on their way meet on each surface, written to a SurfaceBatch with the
+// passes that are called for.
 
 #pragma once
 

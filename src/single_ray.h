@@ -10,8 +10,8 @@
 
 namespace lensplane {
 
-/// What the ray through `film` meets on each surface of `sight`, in their order. `recipe`: which of the plan's,
-/// by `planes`.
+/// What the ray through `film` meets on each surface of `sight`, in their order. `recipe`: which of the
+/// plan's, by `planes`.
 template <class Number>
 std::vector<SurfaceHit<Number>> trace_ray(const Sight& sight, const Plan& plan, std::size_t recipe,
                                           FilmPosition film);

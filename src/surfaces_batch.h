@@ -24,7 +24,8 @@ struct PassBatch {
 
 /// What a batch of rays meets on one surface; see SurfaceHit.
 struct SurfaceBatch {
-  alignas(64) BatchArray s, t, distance;  // distance: metres along the bent ray, infinite for plates and skies
+  alignas(64) BatchArray s, t,
+      distance;  // distance: metres along the bent ray, infinite for plates and skies
   std::array<Outcome, kBatchSize> outcome;
   std::unique_ptr<PassBatch> passes;  // null when no effect is called for
 };
