@@ -209,17 +209,19 @@ LENSPLANE_KERNEL void turn_about(const Deflector& deflector, double limit_z, Lin
     const Vector<Number> across_out =
         difference(scaled(across, r.cosine), scaled(direction, strength.arc * r.sine));
     const Vector<Number> out = sum(scaled(direction, r.cosine), scaled(across, strength.per_b * r.sine));
+    Vector<Number> start = difference(mass, finite ? scaled(across_out, Number(limits.n)) : across_out);
     double way = value_of(to.along.get(i));
     if constexpr (finite) {
       const Number back = select(way < 0.0, to.along.get(i), Number(0.0));
-      const Vector<Number> foot = difference(mass, scaled(across_out, Number(limits.n)));
-      rays.start.set(i, difference(foot, scaled(out, back)));
+      start = difference(start, scaled(out, back));
       way -= value_of(back);
-    } else {
-      rays.start.set(i, difference(mass, across_out));
     }
+    if constexpr (path) {  // go on from where the ray was; see turned() of planes_march.cpp
+      start = difference(start, scaled(out, strength.arc * r.sine));
+      rays.path.v[i] += way + value_of(strength.arc) * (1.0 - value_of(r.sine));
+    }
+    rays.start.set(i, start);
     rays.direction.set(i, out);
-    if constexpr (path) rays.path.v[i] += way + value_of(strength.arc);
     const double b2_value = value_of(b2);
     const bool fits =
         limits.fit(ahead, b2_value) & turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z);
@@ -275,7 +277,6 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
     const double sine_per_b = strength.per_b * r.sine;
     const Vec3 across_out = difference(scaled(across, r.cosine), scaled(d, b_sine));
     const Vec3 out = sum(scaled(d, r.cosine), scaled(across, sine_per_b));
-    const Vec3 start = difference(mass, across_out);
     const double per_b2 = 1.0 / b2;
 
     const auto carried = [&](const Tangent& t) __attribute__((always_inline)) {
@@ -294,10 +295,17 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
     const Tangent y = tangent_at(Vec3(rays.start.x.dy[i], rays.start.y.dy[i], rays.start.z.dy[i]),
                                  Vec3(rays.direction.x.dy[i], rays.direction.y.dy[i], rays.direction.z.dy[i]),
                                  across, normal, along);
-    const Vec3 start_x = carried(x), start_y = carried(y), out_x = turned(x), out_y = turned(y);
+    const Vec3 out_x = turned(x), out_y = turned(y);
+    Vec3 start = difference(mass, across_out);
+    Vec3 start_x = carried(x), start_y = carried(y);
+    if constexpr (path) {  // go on from where the ray was; see turned() of planes_march.cpp
+      start = difference(start, scaled(out, b_sine));
+      start_x = difference(start_x, scaled(out_x, b_sine));
+      start_y = difference(start_y, scaled(out_y, b_sine));
+      rays.path.v[i] += along + strength.arc * (1.0 - r.sine);
+    }
     rays.start.set(i, dual_vector(start, start_x, start_y));
     rays.direction.set(i, dual_vector(out, out_x, out_y));
-    if constexpr (path) rays.path.v[i] += along + strength.arc;
     const bool fits = limits.fit(true, b2) & turn_fits<reach>(q) & (out.z < limit_z);
     mark(i, fits, limits.capture(true, b2), rays);
   }
@@ -387,7 +395,7 @@ LENSPLANE_KERNEL void turn_by_sums(const SumsBatch<Number>& sums, double limit_z
     }
     rays.start.set(i, start);
     rays.direction.set(i, out);
-    if constexpr (path) rays.path.v[i] += way + sums.arc.v[i];
+    if constexpr (path) rays.path.v[i] += way + sums.arc.v[i] * (1.0 - value_of(r.sine));
     mark(i, turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z), false, rays);
   }
 }

@@ -26,7 +26,7 @@ template <class Number>
 struct Turning {
   Number ahead;  // from the start of the ray to the plane's reference point on it, metres; may be negative
   Line<Number> out;  // where the ray goes on
-  Number arc;        // further length of the path: the foot point's way round the masses
+  Number arc;        // by how much the way round the masses is longer than that across their line
 };
 
 /// The deflectors' sums over one plane. Each deflector's foot point lies `along` past the reference point;
@@ -40,17 +40,20 @@ struct PlaneSums {
   Number arc = 0.0;                                    // sum of alpha b
 };
 
-/// The ray's line after the plane: its direction turned by the sum of the angles, its foot points about their
-/// masses. For one deflector this is the rotation about it, exactly.
+/// The ray after the plane: its direction turned by the sum of the angles, its foot points about their masses.
+/// For one deflector this is the rotation about it, exactly. It goes on from where it was, not from its turned
+/// foot point, so that nothing between the two is passed over.
 template <class Number>
-Line<Number> turned(const Vector<Number>& reference, const Vector<Number>& direction,
-                    const PlaneSums<Number>& sums) {
+Turning<Number> turned(const Number& ahead, const Vector<Number>& reference, const Vector<Number>& direction,
+                       const PlaneSums<Number>& sums) {
   const Turn<Number> r = turn(sums.bend.dot(sums.bend));
   const Vector<Number> inward = sums.kink * r.sine + sums.shift * r.versine + sums.outward;
   // The same rotation applied to `inward`, which is perpendicular to `direction`.
   const Vector<Number> rotated =
       inward - (sums.bend * r.versine + direction * r.sine) * inward.dot(sums.bend);
-  return {reference - rotated, direction * r.cosine + sums.bend * r.sine};
+  return {ahead,
+          {reference - rotated, direction * r.cosine + sums.bend * r.sine},
+          sums.arc * (1.0 - r.sine)};
 }
 
 /// Where the ray that ends `path` goes on behind a plane; nothing when it is captured there.
@@ -79,7 +82,7 @@ std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_
     path.passages.push_back({deflector.lens, deflector.m, length(deflector.position), b, bent->alpha,
                              path.lengths.back() + ahead + along});
   }
-  return Turning<Number>{ahead, turned(reference, ray.direction, sums), sums.arc};
+  return turned(ahead, reference, ray.direction, sums);
 }
 
 /// Lets the ray go on from a plane. With finite distance its path never goes backwards: a mass behind the
