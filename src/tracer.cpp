@@ -71,6 +71,10 @@ void march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
   if (spheres) see_spheres(sight, no_end(), static_cast<int>(count), rays, batch);
   see_infinity(sight, rays, static_cast<int>(count), batch);
   std::copy_n(rays.irregular, kBatchSize, irregular);
+  // A batch does not keep how far a captured ray came.
+  for (int i = 0; (sight.effects.direction || sight.effects.bends) && i < kBatchSize; ++i) {
+    irregular[i] = rays.captured[i] != 0.0 ? 1.0 : irregular[i];
+  }
 }
 
 }  // namespace
