@@ -32,14 +32,14 @@ class RandomScenes {
     camera.width = 192;
     camera.height = 128;
     camera.fov_rad = spread(1e-4, 2.5);
-    const unsigned kind = random_() % 4;
+    const auto kind = random_() % 4;
     if (kind == 2) camera.projection = Projection::LatLong;
     if (kind == 3) camera.projection = Projection::Fisheye, camera.fov_rad = uniform(0.1, 2 * kPi);
     scene.surfaces = {LatLong{}};
     if (kind == 0) scene.surfaces.push_back(Plate{});
     const double distance = spread(1e3, 1e20);
-    const unsigned count = 1 + random_() % 6;
-    for (unsigned i = 0; i < count; ++i) add_lens(distance, scene);
+    const auto count = 1 + random_() % 6;
+    for (unsigned long i = 0; i < count; ++i) add_lens(distance, scene);
     return scene;
   }
 
