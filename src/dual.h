@@ -58,6 +58,9 @@ constexpr Dual reciprocal(const Dual& a) {
   const double r = 1.0 / a.v;
   return chained(a, r, -r * r);
 }
+constexpr double reciprocal(double a) {
+  return 1.0 / a;
+}
 constexpr Dual operator/(const Dual& a, const Dual& b) {
   return a * reciprocal(b);
 }
