@@ -84,8 +84,9 @@ std::string recipe_table(const PlannedFrame& planned) {
   if (plan.recipes.empty()) return "";
   Rows rows = {{"share of the film", "lenses by their laws"}};
   const std::vector<double> shares = shares_of(planned);
-  for (std::size_t i = 0; i < shares.size(); ++i)
-    rows.push_back({fmt::format("{:.1f} %", 100.0 * shares[i]), laws_of(plan.recipes[i])});
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (shares[i] > 0) rows.push_back({fmt::format("{:.1f} %", 100.0 * shares[i]), laws_of(plan.recipes[i])});
+  }
   return "\n" + text_from_rows(rows);
 }
 
