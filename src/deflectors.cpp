@@ -23,9 +23,8 @@ DeflectorPlane deflector_plane(const LensPlane& plane, Law law, bool finite_dist
 }
 
 bool inside_horizon(const LensPlane& plane) {
-  return std::any_of(plane.sources.begin(), plane.sources.end(), [](const Source& source) {
-    return length(source.position) <= kHorizon * source.m;
-  });
+  return std::any_of(plane.sources.begin(), plane.sources.end(),
+                     [](const Source& source) { return length(source.position) <= kHorizon * source.m; });
 }
 
 }  // namespace
@@ -44,8 +43,9 @@ Deflectors deflectors_of(const Scene& scene, Law law, bool finite_distance) {
   result.finite_distance = finite_distance || !flat;
   result.blind = std::any_of(planes.begin(), planes.end(), inside_horizon);
   // With the finite distance of the camera, planes behind it bend its light, too, by what is left of them.
-  const auto first_in_front = std::stable_partition(
-      planes.begin(), planes.end(), [&](const LensPlane& p) { return result.finite_distance || p.distance > 0; });
+  const auto first_in_front = std::stable_partition(planes.begin(), planes.end(), [&](const LensPlane& p) {
+    return result.finite_distance || p.distance > 0;
+  });
   result.outward = static_cast<std::size_t>(first_in_front - planes.begin());
   std::stable_sort(planes.begin(), first_in_front, [](const LensPlane& a, const LensPlane& b) {
     return std::abs(a.distance) < std::abs(b.distance);

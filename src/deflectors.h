@@ -11,17 +11,18 @@
 #include <vector>
 
 #include "src/deflection.h"
+#include "src/fermat.h"
 #include "src/lens_planes.h"
 
 namespace lensplane {
 
 /// A mass and how it bends.
 struct Deflector {
-  double m;           // geometric mass, metres, > 0
-  Vec3 position;      // metres, camera axes
+  double m;       // geometric mass, metres, > 0
+  Vec3 position;  // metres, camera axes
   Law law;
   std::size_t lens = 0;  // its number in the scene
-  double index = 1;    // Fermat index n of its metric at the camera; 1 without finite distance
+  double index = 1;      // Fermat index n of its metric at the camera; 1 without finite distance
 };
 
 /// Deflectors that bend a ray together: their bends are added up, so that their order has no influence.
@@ -35,20 +36,14 @@ struct Deflectors {
   std::vector<DeflectorPlane> planes;
   std::size_t outward = 0;       // so many planes every ray meets; the rest only light that has turned back
   bool finite_distance = false;  // bends are only as large as the light's way from the camera makes them
-  bool flat = true;              // the planes are parallel to a screen: light that runs along it meets no more
-  bool blind = false;            // the camera is inside a horizon: it sees nothing
+  bool flat = true;    // the planes are parallel to a screen: light that runs along it meets no more
+  bool blind = false;  // the camera is inside a horizon: it sees nothing
 };
 
 /// Index of refraction of one mass's isotropic metric, n = (1 + S)^3/(1 - S) with S = m/(2 rho), at the
 /// distance rho; infinite on and inside the horizon rho = m/2. It makes
 /// b = n rho sin(chi) the impact parameter of a ray that leaves at chi from the direction of the mass.
 double fermat_index(double m, double rho);
-
-/// The photon sphere (areal radius 3 m) in isotropic coordinates, over m.
-inline constexpr double kPhotonSphere = 1.866025403784438646763723;
-
-/// The horizon (areal radius 2 m) in isotropic coordinates, over m.
-inline constexpr double kHorizon = 0.5;
 
 /// The deflectors of `scene`, all by the same law.
 Deflectors deflectors_of(const Scene& scene, Law law, bool finite_distance);

@@ -73,6 +73,9 @@ constexpr Dual reciprocal(const Dual& a) {
 constexpr double reciprocal(double a) {
   return 1.0 / a;
 }
+constexpr Dual operator/(const Dual& a, double b) {
+  return {a.v / b, a.dx / b, a.dy / b};
+}
 constexpr Dual operator/(double a, const Dual& b) {
   return a * reciprocal(b);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Effects: what a trace may compute beside where light comes from. Each is computed only when it is called for.
+// Effects: what a trace may compute beside where light comes from. Each is computed only when it is called
+// for.
 
 #pragma once
 
@@ -22,9 +23,7 @@ struct Effects {
 
   /// Do any need derivatives along the rays?
   constexpr bool derivatives() const { return jacobian || magnification; }
-  constexpr bool any() const {
-    return derivatives() || delay || direction || shadow || bends || depth;
-  }
+  constexpr bool any() const { return derivatives() || delay || direction || shadow || bends || depth; }
 };
 
 struct EffectName {
@@ -33,9 +32,9 @@ struct EffectName {
 };
 
 inline constexpr std::array kEffectNames = {
-    EffectName{&Effects::jacobian, "jacobian"},   EffectName{&Effects::magnification, "magnification"},
-    EffectName{&Effects::delay, "delay"},         EffectName{&Effects::direction, "direction"},
-    EffectName{&Effects::shadow, "shadow"},       EffectName{&Effects::bends, "bends"},
+    EffectName{&Effects::jacobian, "jacobian"}, EffectName{&Effects::magnification, "magnification"},
+    EffectName{&Effects::delay, "delay"},       EffectName{&Effects::direction, "direction"},
+    EffectName{&Effects::shadow, "shadow"},     EffectName{&Effects::bends, "bends"},
     EffectName{&Effects::depth, "depth"},
 };
 

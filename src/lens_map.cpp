@@ -6,49 +6,130 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 namespace lensplane {
 namespace {
 
-void store(const SurfaceBatch& surface, std::size_t first, int count, LensMap& map) {
+/// A channel: which effect calls for it, and its value for ray `i`.
+struct Channel {
+  bool Effects::*effect;
+  std::string_view name;
+  double (*value)(const SurfaceBatch&, int i);
+};
+
+constexpr std::array kChannels = {
+    Channel{&Effects::jacobian, "jacobian.ds_dx",
+            [](const SurfaceBatch& b, int i) { return b.passes->ds_dx[i]; }},
+    Channel{&Effects::jacobian, "jacobian.ds_dy",
+            [](const SurfaceBatch& b, int i) { return b.passes->ds_dy[i]; }},
+    Channel{&Effects::jacobian, "jacobian.dt_dx",
+            [](const SurfaceBatch& b, int i) { return b.passes->dt_dx[i]; }},
+    Channel{&Effects::jacobian, "jacobian.dt_dy",
+            [](const SurfaceBatch& b, int i) { return b.passes->dt_dy[i]; }},
+    Channel{&Effects::magnification, "lensing.magnification",
+            [](const SurfaceBatch& b, int i) { return b.passes->magnification[i]; }},
+    Channel{&Effects::delay, "lensing.delay",
+            [](const SurfaceBatch& b, int i) { return b.passes->delay[i]; }},
+    Channel{&Effects::direction, "dir.x", [](const SurfaceBatch& b, int i) { return b.passes->dir_x[i]; }},
+    Channel{&Effects::direction, "dir.y", [](const SurfaceBatch& b, int i) { return b.passes->dir_y[i]; }},
+    Channel{&Effects::direction, "dir.z", [](const SurfaceBatch& b, int i) { return b.passes->dir_z[i]; }},
+    Channel{&Effects::shadow, "lensing.shadow",
+            [](const SurfaceBatch& b, int i) { return b.outcome[i] == Outcome::Captured ? 1.0 : 0.0; }},
+    Channel{&Effects::bends, "lensing.bends",
+            [](const SurfaceBatch& b, int i) { return b.passes->bends[i]; }},
+    Channel{&Effects::depth, "depth.z",
+            [](const SurfaceBatch& b, int i) { return b.outcome[i] == Outcome::Hit ? b.distance[i] : 0.0; }},
+};
+
+/// Finite, whatever comes.
+float finite_float(double value) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return std::isnan(value) ? 0.0F : static_cast<float>(std::clamp(value, -kLargest, kLargest));
+}
+
+void store(const SurfaceBatch& surface, int first, int count, std::size_t at, LensMap& map) {
   for (int i = 0; i < count; ++i) {
-    const std::size_t at = first + static_cast<std::size_t>(i);
-    map.s[at] = static_cast<float>(surface.s[i]);
-    map.t[at] = static_cast<float>(surface.t[i]);
-    map.valid[at] = surface.outcome[static_cast<std::size_t>(i)] == Outcome::Hit ? 1.0F : 0.0F;
+    const std::size_t k = at + static_cast<std::size_t>(i);
+    map.s[k] = finite_float(surface.s[first + i]);
+    map.t[k] = finite_float(surface.t[first + i]);
+    map.valid[k] = surface.outcome[static_cast<std::size_t>(first + i)] == Outcome::Hit ? 1.0F : 0.0F;
+  }
+  std::size_t pass = 0;
+  for (const Channel& channel : kChannels) {
+    if (pass == map.passes.size() || map.passes[pass].channel != channel.name) continue;
+    std::vector<float>& values = map.passes[pass++].values;
+    for (int i = 0; i < count; ++i) {
+      values[at + static_cast<std::size_t>(i)] = finite_float(channel.value(surface, first + i));
+    }
   }
 }
 
-/// Fills row `row` of every map.
-void trace_row(const Tracer& tracer, int row, TraceBatch& batch, std::vector<LensMap>& maps) {
+/// A square of the film, as the plan's tiles cut it, in rows and columns of the overscanned film.
+struct Tile {
+  int left, top, right, bottom;
+};
+
+/// Traces a tile by batches of as many of its rows as fit, and stores it in the maps of `rows`.
+void trace_tile(const Tracer& tracer, const Tile& tile, RowRange rows, TraceBatch& batch,
+                std::vector<LensMap>& maps) {
   const int overscan = tracer.camera().overscan;
-  const int width = tracer.camera().full_width();
-  for (int column = 0; column < width; column += kBatchSize) {
-    const int count = std::min(kBatchSize, width - column);
-    for (int i = 0; i < kBatchSize;
-         ++i) {  // the last batch of a row reaches beyond it; those rays are not used
-      batch.x[i] = column + i - overscan + 0.5;
-      batch.y[i] = row - overscan + 0.5;
+  const int width = tile.right - tile.left;
+  const int deep = kBatchSize / width;
+  for (int top = tile.top; top < tile.bottom; top += deep) {
+    for (int i = 0; i < kBatchSize; ++i) {
+      // What reaches beyond the tile repeats its last row and is not used.
+      batch.x[i] = tile.left + i % width - overscan + 0.5;
+      batch.y[i] = std::min(top + i / width, tile.bottom - 1) - overscan + 0.5;
     }
     tracer.trace(batch);
-    const std::size_t first =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
-    for (std::size_t k = 0; k < maps.size(); ++k) store(batch.surfaces[k], first, count, maps[k]);
+    for (int row = top; row < std::min(top + deep, tile.bottom); ++row) {
+      for (std::size_t k = 0; k < maps.size(); ++k) {
+        const std::size_t at =
+            static_cast<std::size_t>(row - rows.begin) * static_cast<std::size_t>(maps[k].width) +
+            static_cast<std::size_t>(tile.left);
+        store(batch.surfaces[k], (row - top) * width, width, at, maps[k]);
+      }
+    }
   }
+}
+
+LensMap blank_map(int width, int height, const Effects& effects) {
+  const std::vector<float> blank(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0F);
+  LensMap map{width, height, blank, blank, blank, {}};
+  for (const Channel& channel : kChannels) {
+    if (effects.*channel.effect) map.passes.push_back({channel.name, blank});
+  }
+  return map;
 }
 
 }  // namespace
 
 std::vector<LensMap> trace_maps(const Tracer& tracer) {
+  return trace_maps(tracer, {0, tracer.camera().full_height()});
+}
+
+std::vector<LensMap> trace_maps(const Tracer& tracer, RowRange rows) {
   const int width = tracer.camera().full_width();
-  const int height = tracer.camera().full_height();
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  const std::vector<float> blank(pixels, 0.0F);
-  std::vector<LensMap> maps(tracer.surfaces().size(), LensMap{width, height, blank, blank, blank});
-  tbb::parallel_for(tbb::blocked_range<int>(0, height), [&](const tbb::blocked_range<int>& rows) {
-    TraceBatch batch = tracer.make_batch();
-    for (int row = rows.begin(); row != rows.end(); ++row) trace_row(tracer, row, batch, maps);
-  });
+  const int size = tracer.plan().tiles.size;
+  std::vector<LensMap> maps(tracer.surfaces().size(),
+                            blank_map(width, rows.end - rows.begin, tracer.plan().effects));
+  const int columns = (width + size - 1) / size;
+  const int first = rows.begin / size;
+  const int last = (rows.end + size - 1) / size;
+  tbb::parallel_for(tbb::blocked_range<int>(0, columns * (last - first)),
+                    [&](const tbb::blocked_range<int>& range) {
+                      TraceBatch batch = tracer.make_batch();
+                      for (int i = range.begin(); i != range.end(); ++i) {
+                        const int left = i % columns * size;
+                        const int top = (first + i / columns) * size;
+                        const Tile tile{left, std::max(top, rows.begin), std::min(left + size, width),
+                                        std::min(top + size, rows.end)};
+                        trace_tile(tracer, tile, rows, batch, maps);
+                      }
+                    });
   return maps;
 }
 

@@ -45,8 +45,8 @@ std::vector<LensPlane> single_mean_plane(const std::vector<PlacedSource>& placed
 
 /// The end of the sources, sorted by depth, that share a plane with the first.
 auto end_of_plane(auto first, auto end) {
-  return std::find_if(first, end,
-                      [&](const PlacedSource& p) { return p.depth - first->depth > kEqualDepth * p.distance; });
+  return std::find_if(
+      first, end, [&](const PlacedSource& p) { return p.depth - first->depth > kEqualDepth * p.distance; });
 }
 
 std::vector<LensPlane> parallel_planes(std::vector<PlacedSource> placed) {

@@ -125,7 +125,7 @@ std::optional<Vector<Number>> bend(const Vector<Number>& direction, const Vector
   const double alpha0 = weak_deflection(m, value_of(b));
   if (!std::isfinite(alpha0)) return std::nullopt;
   const Number alpha = chained(b, alpha0, -alpha0 / value_of(b));
-  const Vector<Number> v_g = to_source * reciprocal(b);                    // (1)
+  const Vector<Number> v_g = to_source * reciprocal(b);                // (1)
   const Vector<Number> across = v_g - direction * v_g.dot(direction);  // (2), (3): V_ray x (V_g x V_ray)
   const Number share = length(across);
   if (value_of(share) == 0.0) return std::nullopt;

@@ -38,51 +38,27 @@ namespace {
 }  // namespace
 
 LENSPLANE_KERNEL
-void start_rays(const Camera& camera, const BatchArray& x, const BatchArray& y, RayBatch& rays) {
-  const double slope = slope_per_pixel(camera);
-  const double centre_x = camera.width / 2.0;
-  const double centre_y = camera.height / 2.0;
-  rays.start_z = 0.0;
-#pragma GCC ivdep  // the arrays are all different ones
+void advance_rays(double distance, LineBatch<double>& rays) {
+#pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
-    const double right = (x[i] - centre_x) * slope;
-    const double up = (centre_y - y[i]) * slope;
-    const double scale = 1.0 / std::sqrt(right * right + up * up + 1.0);
-    rays.start_x[i] = 0.0;
-    rays.start_y[i] = 0.0;
-    rays.travelled[i] = 0.0;
-    rays.dir_x[i] = right * scale;
-    rays.dir_y[i] = up * scale;
-    rays.dir_z[i] = -scale;
-    // As meet_plate will compute them, so that a ray that is never bent comes back to its own pixel exactly.
-    const double per_depth = 1.0 / scale;
-    rays.first_right[i] = rays.dir_x[i] * per_depth;
-    rays.first_up[i] = rays.dir_y[i] * per_depth;
-    rays.irregular[i] = 0.0;
+    const double length = (-distance - rays.start.z.v[i]) / rays.direction.z.v[i];
+    rays.start.x.v[i] += rays.direction.x.v[i] * length;
+    rays.start.y.v[i] += rays.direction.y.v[i] * length;
+    rays.start.z.v[i] = -distance;
+    rays.path.v[i] += length;
   }
 }
 
 LENSPLANE_KERNEL
-void advance_rays(double z, RayBatch& rays) {
-  const double depth = z - rays.start_z;
-  for (int i = 0; i < kBatchSize; ++i) {
-    const double length = depth / rays.dir_z[i];
-    rays.start_x[i] += rays.dir_x[i] * length;
-    rays.start_y[i] += rays.dir_y[i] * length;
-    rays.travelled[i] += length;
-  }
-  rays.start_z = z;
-}
-
-LENSPLANE_KERNEL
-void bend_rays(const Source& source, RayBatch& rays) {
+void bend_rays(const Source& source, LineBatch<double>& rays) {
   const double m4 = weak_deflection(source.m, 1.0);
   const double m4_squared = m4 * m4;
   const double smallest_b2 = m4_squared / (kBatchAlpha * kBatchAlpha);
+#pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
-    const double vx = rays.dir_x[i], vy = rays.dir_y[i], vz = rays.dir_z[i];
-    const double to_x = source.x - rays.start_x[i];
-    const double to_y = source.y - rays.start_y[i];
+    const double vx = rays.direction.x.v[i], vy = rays.direction.y.v[i], vz = rays.direction.z.v[i];
+    const double to_x = source.position.x - rays.start.x.v[i];
+    const double to_y = source.position.y - rays.start.y.v[i];
     // The part of P_g - Q across the ray: V_rot of equation (3) times its length.
     const double along = to_x * vx + to_y * vy;
     const double across_x = to_x - along * vx;
@@ -98,9 +74,9 @@ void bend_rays(const Source& source, RayBatch& rays) {
     const double cos_alpha = cosine(alpha2);
     const double sin_alpha = m4 * sine_ratio(alpha2) * (product * b2);
     const double new_z = cos_alpha * vz + sin_alpha * across_z;
-    rays.dir_x[i] = cos_alpha * vx + sin_alpha * across_x;
-    rays.dir_y[i] = cos_alpha * vy + sin_alpha * across_y;
-    rays.dir_z[i] = new_z;
+    rays.direction.x.v[i] = cos_alpha * vx + sin_alpha * across_x;
+    rays.direction.y.v[i] = cos_alpha * vy + sin_alpha * across_y;
+    rays.direction.z.v[i] = new_z;
     // Written so that whatever over- or underflows, or is a NaN, is irregular, too.
     const bool regular = (b2 >= smallest_b2) & (product > 0.0) &
                          (product < std::numeric_limits<double>::max()) & (new_z < 0.0);

@@ -77,8 +77,7 @@ template <class Number>
   // Slopes by q: for short turns from the series, dS/dq = -1/6 + q/60 ..., dE/dq = -1/24 + q/360 ...
   constexpr std::array kSineSlope = {-1.0 / 6.0, 2.0 / 120.0, -3.0 / 5040.0, 4.0 / 362880.0};
   constexpr std::array kVersineSlope = {-1.0 / 24.0, 2.0 / 720.0, -3.0 / 40320.0, 4.0 / 3628800.0};
-  const double sine_slope =
-      is_short ? polynomial(kSineSlope, q0).value : 0.5 * (cosine - sine) * per_q;
+  const double sine_slope = is_short ? polynomial(kSineSlope, q0).value : 0.5 * (cosine - sine) * per_q;
   const double versine_slope =
       is_short ? polynomial(kVersineSlope, q0).value : (0.5 * sine - versine) * per_q;
   return {chained(q, cosine, -0.5 * sine), chained(q, sine, sine_slope), chained(q, versine, versine_slope)};

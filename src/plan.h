@@ -13,9 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "src/batch.h"
 #include "src/deflectors.h"
 #include "src/effects.h"
 #include "src/method.h"
+#include "src/projection.h"
 
 namespace lensplane {
 
@@ -32,11 +34,11 @@ struct TraceSettings {
 
 /// What becomes of one lens of the scene.
 struct LensPlan {
-  std::size_t lens = 0;   // its number in the scene
-  bool culled = false;    // left out
-  Law law = Law::Weak;    // the highest that it needs anywhere on the film
-  double moves_px = 0;    // how far it moves what is seen, at most, over the film; infinite near its shadow
-  double bound_px = 0;    // how much of that is left out, at most
+  std::size_t lens = 0;  // its number in the scene
+  bool culled = false;   // left out
+  Law law = Law::Weak;   // the highest that it needs anywhere on the film
+  double moves_px = 0;   // how far it moves what is seen, at most, over the film; infinite near its shadow
+  double bound_px = 0;   // how much of that is left out, at most
   std::string reason;
 };
 
@@ -69,14 +71,25 @@ struct Plan {
   double bound_px = 0;              // all that is left out, at most
 };
 
+/// By `geodesic` the direction of a ray is followed to this share of the tolerance.
+inline constexpr double kGeodesicShare = 0.1;
+
 /// What it takes to trace `scene`.
 Plan plan_trace(const Scene& scene, const TraceSettings& settings);
 
 /// By `method` with nothing left out, nothing else called for.
 Plan plan_trace(const Scene& scene, Method method);
 
-/// The plan in one line: "planes: 3 lenses on 3 planes, laws weak 2, exact 1, nothing culled; finite distance
-/// off; within 0.021 px".
+/// The recipe of the tile in which a film position lies.
+std::size_t level_at(const Plan& plan, const Camera& camera, FilmPosition film);
+
+/// The least and the highest recipe of the tiles that the film positions span.
+struct LevelRange {
+  std::size_t least, most;
+};
+LevelRange levels_of(const Plan& plan, const Camera& camera, const BatchArray& x, const BatchArray& y);
+
+/// The plan in one line: "planes: 3 lenses, 2 weak, 1 exact; finite distance off; within 0.021 px".
 std::string describe(const Plan& plan);
 
 }  // namespace lensplane

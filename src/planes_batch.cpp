@@ -87,8 +87,8 @@ template <Law law, Reach reach, class Number>
   const double n = deflector.index;
   const Number r2 = along * along + b2;
   const Number cosine = along * reciprocal(sqrt(r2));
-  const Number per_b2 = select(ahead, 1.0 + cosine, Number(1.0)) *
-                        reciprocal(select(ahead, b2, r2 * (1.0 - cosine)));
+  const Number per_b2 =
+      select(ahead, 1.0 + cosine, Number(1.0)) * reciprocal(select(ahead, b2, r2 * (1.0 - cosine)));
   const double weak = 2.0 * deflector.m / n;
   Number per_b = weak * per_b2;
   if constexpr (law != Law::Weak) {
@@ -116,8 +116,10 @@ double nearest_b2(double m) {
 
 template <Reach reach, class Number>
 [[gnu::always_inline]] inline Turn<Number> turn_within(const Number& q) {
-  if constexpr (reach == Reach::Far) return short_turn(q);
-  else return near_turn(q);
+  if constexpr (reach == Reach::Far)
+    return short_turn(q);
+  else
+    return near_turn(q);
 }
 
 template <Reach reach>
@@ -207,17 +209,19 @@ LENSPLANE_KERNEL void turn_about(const Deflector& deflector, double limit_z, Lin
     const Vector<Number> across_out =
         difference(scaled(across, r.cosine), scaled(direction, strength.arc * r.sine));
     const Vector<Number> out = sum(scaled(direction, r.cosine), scaled(across, strength.per_b * r.sine));
+    Vector<Number> start = difference(mass, finite ? scaled(across_out, Number(limits.n)) : across_out);
     double way = value_of(to.along.get(i));
     if constexpr (finite) {
       const Number back = select(way < 0.0, to.along.get(i), Number(0.0));
-      const Vector<Number> foot = difference(mass, scaled(across_out, Number(limits.n)));
-      rays.start.set(i, difference(foot, scaled(out, back)));
+      start = difference(start, scaled(out, back));
       way -= value_of(back);
-    } else {
-      rays.start.set(i, difference(mass, across_out));
     }
+    if constexpr (path) {  // go on from where the ray was; see turned() of planes_march.cpp
+      start = difference(start, scaled(out, strength.arc * r.sine));
+      rays.path.v[i] += way + value_of(strength.arc) * (1.0 - value_of(r.sine));
+    }
+    rays.start.set(i, start);
     rays.direction.set(i, out);
-    if constexpr (path) rays.path.v[i] += way + value_of(strength.arc);
     const double b2_value = value_of(b2);
     const bool fits =
         limits.fit(ahead, b2_value) & turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z);
@@ -273,7 +277,6 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
     const double sine_per_b = strength.per_b * r.sine;
     const Vec3 across_out = difference(scaled(across, r.cosine), scaled(d, b_sine));
     const Vec3 out = sum(scaled(d, r.cosine), scaled(across, sine_per_b));
-    const Vec3 start = difference(mass, across_out);
     const double per_b2 = 1.0 / b2;
 
     const auto carried = [&](const Tangent& t) __attribute__((always_inline)) {
@@ -286,16 +289,23 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
       const double along_normal = (r.cosine * t.q2 - sine_per_b * t.q1) * per_b2;
       return sum(scaled(across_out, along_across), scaled(normal, along_normal));
     };
-    const Tangent x = tangent_at(
-        Vec3(rays.start.x.dx[i], rays.start.y.dx[i], rays.start.z.dx[i]),
-        Vec3(rays.direction.x.dx[i], rays.direction.y.dx[i], rays.direction.z.dx[i]), across, normal, along);
-    const Tangent y = tangent_at(
-        Vec3(rays.start.x.dy[i], rays.start.y.dy[i], rays.start.z.dy[i]),
-        Vec3(rays.direction.x.dy[i], rays.direction.y.dy[i], rays.direction.z.dy[i]), across, normal, along);
-    const Vec3 start_x = carried(x), start_y = carried(y), out_x = turned(x), out_y = turned(y);
+    const Tangent x = tangent_at(Vec3(rays.start.x.dx[i], rays.start.y.dx[i], rays.start.z.dx[i]),
+                                 Vec3(rays.direction.x.dx[i], rays.direction.y.dx[i], rays.direction.z.dx[i]),
+                                 across, normal, along);
+    const Tangent y = tangent_at(Vec3(rays.start.x.dy[i], rays.start.y.dy[i], rays.start.z.dy[i]),
+                                 Vec3(rays.direction.x.dy[i], rays.direction.y.dy[i], rays.direction.z.dy[i]),
+                                 across, normal, along);
+    const Vec3 out_x = turned(x), out_y = turned(y);
+    Vec3 start = difference(mass, across_out);
+    Vec3 start_x = carried(x), start_y = carried(y);
+    if constexpr (path) {  // go on from where the ray was; see turned() of planes_march.cpp
+      start = difference(start, scaled(out, b_sine));
+      start_x = difference(start_x, scaled(out_x, b_sine));
+      start_y = difference(start_y, scaled(out_y, b_sine));
+      rays.path.v[i] += along + strength.arc * (1.0 - r.sine);
+    }
     rays.start.set(i, dual_vector(start, start_x, start_y));
     rays.direction.set(i, dual_vector(out, out_x, out_y));
-    if constexpr (path) rays.path.v[i] += along + strength.arc;
     const bool fits = limits.fit(true, b2) & turn_fits<reach>(q) & (out.z < limit_z);
     mark(i, fits, limits.capture(true, b2), rays);
   }
@@ -357,7 +367,8 @@ LENSPLANE_KERNEL void add_to_sums(const Deflector& deflector, LineBatch<Number>&
     sums.shift.set(i, sum(sums.shift.get(i), scaled(bend, strength.arc)));
     if constexpr (path) sums.arc.v[i] += value_of(strength.arc);
     const double b2_value = value_of(b2);
-    mark(i, limits.fit(ahead, b2_value) & turn_fits<reach>(value_of(q)), limits.capture(ahead, b2_value), rays);
+    mark(i, limits.fit(ahead, b2_value) & turn_fits<reach>(value_of(q)), limits.capture(ahead, b2_value),
+         rays);
   }
 }
 
@@ -384,7 +395,7 @@ LENSPLANE_KERNEL void turn_by_sums(const SumsBatch<Number>& sums, double limit_z
     }
     rays.start.set(i, start);
     rays.direction.set(i, out);
-    if constexpr (path) rays.path.v[i] += way + sums.arc.v[i];
+    if constexpr (path) rays.path.v[i] += way + sums.arc.v[i] * (1.0 - value_of(r.sine));
     mark(i, turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z), false, rays);
   }
 }
@@ -462,49 +473,7 @@ void mark_turned(LineBatch<Number>& rays) {
   }
 }
 
-template <class Number>
-LENSPLANE_KERNEL void start_perspective(const Camera& camera, const BatchArray& x, const BatchArray& y,
-                                        LineBatch<Number>& rays) {
-  const double slope = slope_per_pixel(camera);
-  const double centre_x = camera.width / 2.0;
-  const double centre_y = camera.height / 2.0;
-#pragma GCC ivdep
-  for (int i = 0; i < kBatchSize; ++i) {
-    const double right = (x[i] - centre_x) * slope;
-    const double up = (centre_y - y[i]) * slope;
-    Number dual_right = right;
-    Number dual_up = up;
-    if constexpr (std::is_same_v<Number, Dual>) {
-      dual_right.dx = slope;
-      dual_up.dy = -slope;
-    }
-    const Number scale = reciprocal(sqrt(dual_right * dual_right + dual_up * dual_up + Number(1.0)));
-    rays.direction.set(i, {dual_right * scale, dual_up * scale, -scale});
-  }
-}
-
-template <class Number>
-void start_panorama(const Camera& camera, const BatchArray& x, const BatchArray& y, LineBatch<Number>& rays) {
-  for (int i = 0; i < kBatchSize; ++i) {
-    rays.direction.set(i, direction_from_film<Number>(camera, {x[i], y[i]}));
-    rays.first.set(i, value_of(rays.direction.get(i)));
-  }
-}
-
 }  // namespace
-
-template <class Number>
-void start_lines(const Camera& camera, const BatchArray& x, const BatchArray& y, LineBatch<Number>& rays) {
-  if (camera.projection == Projection::Perspective) {
-    start_perspective(camera, x, y, rays);
-  } else {
-    start_panorama(camera, x, y, rays);
-  }
-  for (int i = 0; i < kBatchSize; ++i) {
-    rays.start.set(i, constant<Number>(Vec3(0)));
-    rays.path.v[i] = rays.shapiro.v[i] = rays.irregular[i] = rays.captured[i] = 0.0;
-  }
-}
 
 template <class Number>
 void pass_plane(const Deflectors& deflectors, std::size_t plane, const PlanesWork& work,
@@ -524,8 +493,6 @@ void pass_plane(const Deflectors& deflectors, std::size_t plane, const PlanesWor
   if (!deflectors.flat && !alone) mark_turned(rays);
 }
 
-template void start_lines(const Camera&, const BatchArray&, const BatchArray&, LineBatch<double>&);
-template void start_lines(const Camera&, const BatchArray&, const BatchArray&, LineBatch<Dual>&);
 template void pass_plane(const Deflectors&, std::size_t, const PlanesWork&, LineBatch<double>&);
 template void pass_plane(const Deflectors&, std::size_t, const PlanesWork&, LineBatch<Dual>&);
 

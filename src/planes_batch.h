@@ -13,9 +13,8 @@
 
 #pragma once
 
-#include "src/batch.h"
 #include "src/deflectors.h"
-#include "src/projection.h"
+#include "src/line_batch.h"
 
 namespace lensplane {
 
@@ -26,28 +25,12 @@ enum class Reach { Far, Near };
 /// alpha itself knows no more digits than b does: kFarError and kExactLawError on top, in b.
 inline constexpr double kPlanesBatchError = 1e-15;
 
-/// A batch of rays on their way.
-template <class Number>
-struct LineBatch {
-  VectorLane<Number> start;          // metres, camera axes
-  VectorLane<Number> direction;      // unit vectors
-  VectorLane<double> first;          // their directions at the camera, where there is no flat screen
-  Lane<double> path;                 // metres along the ray from the camera to `start`, when it is asked for
-  Lane<double> shapiro;              // metres of Shapiro delay so far, when the arrival time is asked for
-  alignas(64) BatchArray irregular;  // 0, or 1 when this kernel does not do for the ray
-  alignas(64) BatchArray captured;   // 0 or 1
-};
-
 /// What is asked of the kernels.
 struct PlanesWork {
   Reach reach = Reach::Far;
   bool path = false;     // fill LineBatch::path
   bool shapiro = false;  // fill LineBatch::shapiro; needs path
 };
-
-/// Rays from the camera through the film positions (x[i], y[i]).
-template <class Number>
-void start_lines(const Camera& camera, const BatchArray& x, const BatchArray& y, LineBatch<Number>& rays);
 
 /// Takes the rays past the outward plane number `plane`.
 template <class Number>

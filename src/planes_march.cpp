@@ -24,9 +24,9 @@ Vector<Number> constant(const Vec3& v) {
 /// What one plane does to a ray.
 template <class Number>
 struct Turning {
-  Number ahead;      // from the start of the ray to the plane's reference point on it, metres; may be negative
+  Number ahead;  // from the start of the ray to the plane's reference point on it, metres; may be negative
   Line<Number> out;  // where the ray goes on
-  Number arc;        // further length of the path: the foot point's way round the masses
+  Number arc;        // by how much the way round the masses is longer than that across their line
 };
 
 /// The deflectors' sums over one plane. Each deflector's foot point lies `along` past the reference point;
@@ -40,17 +40,20 @@ struct PlaneSums {
   Number arc = 0.0;                                    // sum of alpha b
 };
 
-/// The ray's line after the plane: its direction turned by the sum of the angles, its foot points about their
-/// masses. For one deflector this is the rotation about it, exactly.
+/// The ray after the plane: its direction turned by the sum of the angles, its foot points about their masses.
+/// For one deflector this is the rotation about it, exactly. It goes on from where it was, not from its turned
+/// foot point, so that nothing between the two is passed over.
 template <class Number>
-Line<Number> turned(const Vector<Number>& reference, const Vector<Number>& direction,
-                    const PlaneSums<Number>& sums) {
+Turning<Number> turned(const Number& ahead, const Vector<Number>& reference, const Vector<Number>& direction,
+                       const PlaneSums<Number>& sums) {
   const Turn<Number> r = turn(sums.bend.dot(sums.bend));
   const Vector<Number> inward = sums.kink * r.sine + sums.shift * r.versine + sums.outward;
   // The same rotation applied to `inward`, which is perpendicular to `direction`.
   const Vector<Number> rotated =
       inward - (sums.bend * r.versine + direction * r.sine) * inward.dot(sums.bend);
-  return {reference - rotated, direction * r.cosine + sums.bend * r.sine};
+  return {ahead,
+          {reference - rotated, direction * r.cosine + sums.bend * r.sine},
+          sums.arc * (1.0 - r.sine)};
 }
 
 /// Where the ray that ends `path` goes on behind a plane; nothing when it is captured there.
@@ -76,11 +79,10 @@ std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_
     sums.shift += across * (bent->alpha * bent->alpha);
     if (finite_distance) sums.outward += across * (deflector.index - 1.0);
     sums.arc += bent->alpha * b;
-    path.passages.push_back(
-        {deflector.lens, deflector.m, length(deflector.position), b, bent->alpha,
-         path.lengths.back() + ahead + along});
+    path.passages.push_back({deflector.lens, deflector.m, length(deflector.position), b, bent->alpha,
+                             path.lengths.back() + ahead + along});
   }
-  return Turning<Number>{ahead, turned(reference, ray.direction, sums), sums.arc};
+  return turned(ahead, reference, ray.direction, sums);
 }
 
 /// Lets the ray go on from a plane. With finite distance its path never goes backwards: a mass behind the
@@ -133,14 +135,14 @@ void march_on(const Deflectors& deflectors, std::size_t passed, RayPath<Number>&
   }
 }
 
-/// Does light no longer move away from the screen; without a screen: has it turned by more than a right angle?
+/// Does light no longer move away from the screen; without a screen: has it turned by more than a right
+/// angle?
 template <class Number>
 bool turned_back(const Deflectors& deflectors, const RayPath<Number>& path) {
   const Vec3 direction = value_of(path.segments.back().direction);
   if (deflectors.flat) return !(direction.z < 0.0);
-  return std::any_of(path.segments.begin(), path.segments.end(), [&](const RaySegment<Number>& s) {
-    return value_of(s.direction).dot(direction) < 0.0;
-  });
+  return std::any_of(path.segments.begin(), path.segments.end(),
+                     [&](const RaySegment<Number>& s) { return value_of(s.direction).dot(direction) < 0.0; });
 }
 
 template <class Number>

@@ -37,8 +37,8 @@ RayPath<Number> march_planes(const Deflectors& deflectors, const Vector<Number>&
 /// The angle by which a deflector bends a ray.
 template <class Number>
 struct Bend {
-  Number alpha;   // radians
-  Number per_b;   // alpha/b, radians per metre: finite where a ray leads straight away from a mass
+  Number alpha;  // radians
+  Number per_b;  // alpha/b, radians per metre: finite where a ray leads straight away from a mass
 };
 
 /// The bend of a ray's line with impact parameter `b`; `along` is the distance that the ray runs from the

@@ -31,7 +31,7 @@ struct ProbedSurface {
 
 struct Probe {
   FilmPosition film;
-  bool seen = true;                       // false outside a fisheye's circle
+  bool seen = true;  // false outside a fisheye's circle
   bool captured = false;
   Vec3 first{0};                          // unit vector in the world, at the camera
   Vec3 last{0};                           // after the last bend

@@ -28,11 +28,11 @@ struct RaySegment {
 template <class Number>
 struct Passage {
   std::size_t lens;  // its number in the scene
-  double m;         // geometric mass, metres
-  double distance;  // metres from the camera to the mass
-  Number b;         // impact parameter, metres
-  Number alpha;     // angle by which it bent the ray, radians
-  Number path;      // metres along the ray from the camera to its closest approach; negative behind the start
+  double m;          // geometric mass, metres
+  double distance;   // metres from the camera to the mass
+  Number b;          // impact parameter, metres
+  Number alpha;      // angle by which it bent the ray, radians
+  Number path;  // metres along the ray from the camera to its closest approach; negative behind the start
 };
 
 /// A ray from the camera to where it ends or leaves.

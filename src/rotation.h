@@ -15,9 +15,9 @@ namespace lensplane {
 
 template <class Number>
 struct Turn {
-  Number cosine;     // C = cos A
-  Number sine;       // S = sin(A)/A
-  Number versine;    // E = (1 - cos A)/A^2
+  Number cosine;   // C = cos A
+  Number sine;     // S = sin(A)/A
+  Number versine;  // E = (1 - cos A)/A^2
 };
 
 /// Largest angle of short_turn, in radians; its remainders are below 1e-16.

@@ -64,8 +64,7 @@ SurfaceHit<Number> meet_sphere(const Sphere& sphere, const RayPath<Number>& path
     hit.bends = static_cast<int>(i);
     std::size_t passed = 0;
     while (passed < path.passages.size() && value_of(path.passages[passed].path) <= hit.distance) ++passed;
-    hit.delay =
-        (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance, passed);
+    hit.delay = (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance, passed);
     return hit;
   }
   SurfaceHit<Number> miss;
@@ -136,7 +135,7 @@ SurfaceHit<Number> meet_plate(const Camera& camera, FilmPosition film, const Vec
   hit.direction = value_of(last);
   const auto on_film = film_moved(camera, film, first, last);
   if (!on_film) return hit;
-  const TexturePoint<Number> st{on_film->x * (1.0 / camera.width), 1.0 - on_film->y * (1.0 / camera.height)};
+  const TexturePoint<Number> st{on_film->x / double(camera.width), 1.0 - on_film->y / double(camera.height)};
   if (!(std::abs(value_of(st.s)) <= kPlateLimit && std::abs(value_of(st.t)) <= kPlateLimit)) return hit;
   hit.outcome = Outcome::Hit;
   hit.st = st;

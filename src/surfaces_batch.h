@@ -4,19 +4,54 @@
 
 #pragma once
 
-#include "src/march_batch.h"
+#include <array>
+#include <memory>
+
+#include "src/line_batch.h"
 #include "src/surfaces.h"
 
 namespace lensplane {
 
-/// For each ray the distance from its start at which it enters the ball, infinite when it does not before the
-/// plane z = `end_z` (which may be -infinity).
-void enter_sphere(const Vec3& centre, double radius, double end_z, const RayBatch& rays, BatchArray& entry);
+/// What a batch of rays meets on one surface beside (s, t); only what the plan's effects ask for is filled.
+/// Where the surface is not hit: direction, shadow and bends of the ray as far as it goes, the rest 0.
+struct PassBatch {
+  alignas(64) BatchArray ds_dx, ds_dy, dt_dx, dt_dy;  // per pixel
+  alignas(64) BatchArray magnification;               // signed; at most kLargestMagnification in size
+  alignas(64) BatchArray delay;                       // seconds after light in empty space
+  alignas(64) BatchArray dir_x, dir_y, dir_z;         // unit vector in the world
+  alignas(64) BatchArray bends;                       // planes that bent the ray
+};
 
-/// For each ray that left the camera through (x[i], y[i]) the (s, t) of the plate at infinity in its present
-/// direction; `in_front` is 1, or 0 where no position on the plate corresponds to the direction and s, t mean
-/// nothing.
-void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, const RayBatch& rays,
-                BatchArray& s, BatchArray& t, BatchArray& in_front);
+/// What a batch of rays meets on one surface; see SurfaceHit.
+struct SurfaceBatch {
+  alignas(64) BatchArray s, t,
+      distance;  // distance: metres along the bent ray, infinite for plates and skies
+  std::array<Outcome, kBatchSize> outcome;
+  std::unique_ptr<PassBatch> passes;  // null when no effect is called for
+};
+
+/// Where every straight stretch ends, in metres from its start.
+struct Ends {
+  alignas(64) BatchArray at;
+};
+
+/// At the closest approach to `point`; with `finite`, not before the start.
+template <class Number>
+void end_nearest(const Vec3& point, bool finite, const LineBatch<Number>& rays, Ends& ends);
+
+/// At the plane at `distance` along -z.
+void end_at_plane(double distance, const LineBatch<double>& rays, Ends& ends);
+
+/// For each ray the distance from `start` at which it enters the ball, infinite when it does not before its
+/// end.
+template <class Number>
+void enter_sphere(const Sphere& sphere, const VectorLane<Number>& start, const VectorLane<Number>& direction,
+                  const Ends& ends, BatchArray& entry);
+
+/// (s, t) of a perspective camera's plate at infinity for rays that left through (x[i], y[i]) and were bent,
+/// outcomes, and with Dual numbers Jacobian and magnification into `surface.passes`.
+template <class Number>
+void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, const LineBatch<Number>& rays,
+                SurfaceBatch& surface);
 
 }  // namespace lensplane

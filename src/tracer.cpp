@@ -4,119 +4,181 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "src/constants.h"
+#include "src/march_batch.h"
+#include "src/single_ray.h"
 
 namespace lensplane {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-void clear(SurfaceBatch& surface) {
-  std::fill_n(surface.s, kBatchSize, 0.0);
-  std::fill_n(surface.t, kBatchSize, 0.0);
-  std::fill_n(surface.distance, kBatchSize, 0.0);
-  surface.outcome.fill(Outcome::Missed);
+const Ends& no_end() {
+  static const Ends ends = [] {
+    Ends e;
+    std::fill_n(e.at, kBatchSize, std::numeric_limits<double>::infinity());
+    return e;
+  }();
+  return ends;
 }
 
-void set(SurfaceBatch& surface, int i, const SurfaceHit& hit) {
-  surface.s[i] = hit.st.s;
-  surface.t[i] = hit.st.t;
-  surface.distance[i] = hit.distance;
-  surface.outcome[i] = hit.outcome;
-}
+/// The rays of `batch` that `pick(i)` names, side by side. Lanes that are left over repeat the last.
+struct PickedRays {
+  std::vector<int> rays;
+  TraceBatch batch;
+};
 
-Vec3 point_on_ray(const RayBatch& rays, int i, double distance) {
-  return {rays.start_x[i] + rays.dir_x[i] * distance, rays.start_y[i] + rays.dir_y[i] * distance,
-          rays.start_z + rays.dir_z[i] * distance};
-}
-
-void see_sphere(const Sphere& sphere, const RayBatch& rays, double end_z, SurfaceBatch& surface) {
-  const bool beyond = sphere.centre.z + sphere.radius < end_z;
-  const bool passed = sphere.centre.z - sphere.radius > rays.start_z;
-  if (beyond || passed) return;
-  alignas(64) BatchArray entry;
-  enter_sphere(sphere.centre, sphere.radius, end_z, rays, entry);
+template <class Pick>
+PickedRays picked(const Sight& sight, const TraceBatch& batch, Pick pick) {
+  PickedRays result{{}, make_batch(sight)};
   for (int i = 0; i < kBatchSize; ++i) {
-    if (!(entry[i] < kInfinity) || surface.outcome[i] == Outcome::Hit) continue;
-    const Vec3 normal = point_on_ray(rays, i, entry[i]) - sphere.centre;
-    set(surface, i,
-        {Outcome::Hit, st_from_sphere_normal(sphere.axes.local_from_parent(normal)),
-         rays.travelled[i] + entry[i]});
+    if (pick(i)) result.rays.push_back(i);
+  }
+  for (std::size_t k = 0; k < kBatchSize && !result.rays.empty(); ++k) {
+    const int i = result.rays[std::min(k, result.rays.size() - 1)];
+    result.batch.x[k] = batch.x[i];
+    result.batch.y[k] = batch.y[i];
+  }
+  return result;
+}
+
+void put_back(const PickedRays& from, TraceBatch& batch) {
+  for (std::size_t k = 0; k < from.rays.size(); ++k) {
+    copy_ray(from.batch, static_cast<int>(k), batch, from.rays[k]);
   }
 }
 
-void see_sky(const Camera& camera, const RayBatch& rays, SurfaceBatch& surface) {
-  for (int i = 0; i < kBatchSize; ++i) {
-    const Vec3 direction(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]);
-    set(surface, i,
-        {Outcome::Hit, st_from_sky_direction(camera.axes.parent_from_local(direction)), kInfinity});
+/// Traces the batch through the planes of `deflectors`; returns which rays it leaves to others.
+template <class Number>
+void march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach reach, TraceBatch& batch,
+                        BatchArray& irregular) {
+  LineBatch<Number> rays;
+  Ends ends;
+  const bool spheres = sight.any_sphere();
+  const PlanesWork work{reach, spheres || sight.effects.delay, sight.effects.delay};
+  start_lines(sight.camera, batch.x, batch.y, rays);
+  if (deflectors.blind) std::fill_n(rays.captured, kBatchSize, 1.0);
+  const std::size_t count = deflectors.blind ? 0 : deflectors.outward;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (spheres) {
+      end_nearest(deflectors.planes[k].centre, deflectors.finite_distance, rays, ends);
+      see_spheres(sight, ends, static_cast<int>(k), rays, batch);
+    }
+    pass_plane(deflectors, k, work, rays);
   }
-}
-
-void see_plate(const Camera& camera, const RayBatch& rays, const TraceBatch& batch, SurfaceBatch& surface) {
-  alignas(64) BatchArray in_front;
-  meet_plate(camera, batch.x, batch.y, rays, surface.s, surface.t, in_front);
-  for (int i = 0; i < kBatchSize; ++i) {
-    surface.distance[i] = kInfinity;
-    surface.outcome[i] = in_front[i] != 0.0 ? Outcome::Hit : Outcome::Behind;
-    if (in_front[i] == 0.0) surface.s[i] = surface.t[i] = 0.0;
-  }
+  if (spheres) see_spheres(sight, no_end(), static_cast<int>(count), rays, batch);
+  see_infinity(sight, rays, static_cast<int>(count), batch);
+  std::copy_n(rays.irregular, kBatchSize, irregular);
 }
 
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, Plan plan) : camera_(scene.camera), plan_(std::move(plan)) {
   assert(camera_.width > 0 && camera_.height > 0 && camera_.overscan >= 0);
-  assert(camera_.fov_rad > 0 && camera_.fov_rad < kPi);
+  assert(camera_.projection != Projection::Perspective || (camera_.fov_rad > 0 && camera_.fov_rad < kPi));
   for (const Surface& surface : scene.surfaces) surfaces_.push_back(camera_from_world(camera_, surface));
 }
 
+Sight Tracer::sight(const Deflectors* finite) const {
+  return {camera_, surfaces_, plan_.effects, finite};
+}
+
 TraceBatch Tracer::make_batch() const {
-  TraceBatch batch;
-  batch.surfaces.resize(surfaces_.size());
-  return batch;
+  return lensplane::make_batch(sight());
 }
 
 void Tracer::trace(TraceBatch& batch) const {
   assert(batch.surfaces.size() == surfaces_.size());
-  std::for_each(batch.surfaces.begin(), batch.surfaces.end(), clear);
-  RayBatch rays;
-  start_rays(camera_, batch.x, batch.y, rays);
-  for (const LensPlane& plane : plan_.planes) {
-    if (!(plane.z < 0.0)) continue;
-    meet_spheres(rays, plane.z, batch);
-    advance_rays(plane.z, rays);
-    for (const Source& source : plane.sources) bend_rays(source, rays);
+  clear(batch);
+  const bool flat = camera_.projection == Projection::Perspective;
+  const bool paper = plan_.method == Method::Kishi || plan_.method == Method::ShinotsukaMakino;
+  if (plan_.method == Method::Planes) {
+    trace_by_planes(batch);
+  } else if (paper && flat && !plan_.effects.derivatives() && !plan_.effects.delay) {
+    trace_by_paper(batch);
+  } else {
+    for (int i = 0; i < kBatchSize; ++i) trace_singly(0, i, batch);
   }
-  meet_spheres(rays, -kInfinity, batch);
-  meet_infinity(rays, batch);
+  if (camera_.projection != Projection::Fisheye) return;
   for (int i = 0; i < kBatchSize; ++i) {
-    if (rays.irregular[i] != 0.0) trace_singly(i, batch);
+    if (sees(camera_, {batch.x[i], batch.y[i]})) continue;
+    SurfaceHit<double> unseen;
+    unseen.outcome = Outcome::Unseen;
+    for (SurfaceBatch& surface : batch.surfaces) set(sight(), unseen, i, surface);
   }
 }
 
-void Tracer::meet_spheres(const RayBatch& rays, double end_z, TraceBatch& batch) const {
-  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    const auto* sphere = std::get_if<Sphere>(&surfaces_[k]);
-    if (sphere) see_sphere(*sphere, rays, end_z, batch.surfaces[k]);
+/// By the laws of each ray's own tile.
+void Tracer::trace_by_planes(TraceBatch& batch) const {
+  const LevelRange levels = levels_of(plan_, camera_, batch.x, batch.y);
+  if (levels.least == levels.most) return trace_by_recipe(levels.least, Reach::Far, batch);
+  for (std::size_t level = levels.least; level <= levels.most; ++level) {
+    PickedRays rays = picked(sight(), batch, [&](int i) {
+      return level_at(plan_, camera_, {batch.x[i], batch.y[i]}) == level;
+    });
+    if (rays.rays.empty()) continue;
+    trace_by_recipe(level, Reach::Far, rays.batch);
+    put_back(rays, batch);
   }
 }
 
-void Tracer::meet_infinity(const RayBatch& rays, TraceBatch& batch) const {
-  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    if (std::holds_alternative<Plate>(surfaces_[k])) see_plate(camera_, rays, batch, batch.surfaces[k]);
-    if (std::holds_alternative<LatLong>(surfaces_[k])) see_sky(camera_, rays, batch.surfaces[k]);
+void Tracer::trace_by_recipe(std::size_t recipe, Reach reach, TraceBatch& batch) const {
+  const Deflectors& deflectors = plan_.recipes[recipe];
+  const Sight view = sight(deflectors.finite_distance ? &deflectors : nullptr);
+  alignas(64) BatchArray irregular;
+  if (plan_.effects.derivatives()) {
+    march_planes_batch<Dual>(view, deflectors, reach, batch, irregular);
+  } else {
+    march_planes_batch<double>(view, deflectors, reach, batch, irregular);
+  }
+  if (std::none_of(irregular, irregular + kBatchSize, [](double flag) { return flag != 0.0; })) return;
+  if (reach == Reach::Far) {
+    PickedRays rays = picked(view, batch, [&](int i) { return irregular[i] != 0.0; });
+    trace_by_recipe(recipe, Reach::Near, rays.batch);
+    put_back(rays, batch);
+    return;
+  }
+  for (int i = 0; i < kBatchSize; ++i) {
+    if (irregular[i] != 0.0) trace_singly(recipe, i, batch);
   }
 }
 
-void Tracer::trace_singly(int i, TraceBatch& batch) const {
+void Tracer::trace_by_paper(TraceBatch& batch) const {
+  LineBatch<double> rays;
+  Ends ends;
+  const Sight view = sight();
+  const bool spheres = view.any_sphere();
+  start_lines(camera_, batch.x, batch.y, rays);
+  int bends = 0;
+  for (const LensPlane& plane : plan_.planes) {
+    if (!(plane.distance > 0.0)) continue;
+    if (spheres) {
+      end_at_plane(plane.distance, rays, ends);
+      see_spheres(view, ends, bends, rays, batch);
+    }
+    advance_rays(plane.distance, rays);
+    for (const Source& source : plane.sources) bend_rays(source, rays);
+    ++bends;
+  }
+  if (spheres) see_spheres(view, no_end(), bends, rays, batch);
+  see_infinity(view, rays, bends, batch);
+  for (int i = 0; i < kBatchSize; ++i) {
+    if (rays.irregular[i] != 0.0) trace_singly(0, i, batch);
+  }
+}
+
+void Tracer::trace_singly(std::size_t recipe, int i, TraceBatch& batch) const {
+  const Sight view = sight();
   const FilmPosition film{batch.x[i], batch.y[i]};
-  const RayPath path = march(plan_.planes, Vec3(0), direction_from_pixel(camera_, film));
-  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    set(batch.surfaces[k], i, meet(surfaces_[k], camera_, film, path));
+  const auto put = [&](const auto& hits) {
+    for (std::size_t k = 0; k < hits.size(); ++k) set(view, hits[k], i, batch.surfaces[k]);
+  };
+  if (plan_.effects.derivatives()) {
+    put(trace_ray<Dual>(view, plan_, recipe, film));
+  } else {
+    put(trace_ray<double>(view, plan_, recipe, film));
   }
 }
 

@@ -7,38 +7,13 @@
 
 #pragma once
 
-#include <array>
-#include <memory>
 #include <vector>
 
-#include "src/batch.h"
 #include "src/plan.h"
-#include "src/surfaces.h"
+#include "src/planes_batch.h"
+#include "src/sight.h"
 
 namespace lensplane {
-
-/// What a batch of rays meets on one surface beside (s, t); only what the plan's effects ask for is filled.
-/// Where the surface is not hit: direction, shadow and bends of the ray as far as it goes, the rest 0.
-struct PassBatch {
-  alignas(64) BatchArray ds_dx, ds_dy, dt_dx, dt_dy;  // per pixel
-  alignas(64) BatchArray magnification;               // signed; at most kLargestMagnification in size
-  alignas(64) BatchArray delay;                       // seconds
-  alignas(64) BatchArray dir_x, dir_y, dir_z;         // unit vector in the world
-  alignas(64) BatchArray bends;                       // planes that bent the ray
-};
-
-/// What a batch of rays meets on one surface; see SurfaceHit.
-struct SurfaceBatch {
-  alignas(64) BatchArray s, t, distance;  // distance: metres along the bent ray, infinite for plates and skies
-  std::array<Outcome, kBatchSize> outcome;
-  std::unique_ptr<PassBatch> passes;  // null when no effect is called for
-};
-
-/// A batch of film positions, in, and what they see, out.
-struct TraceBatch {
-  alignas(64) BatchArray x{}, y{};     // pixels; all kBatchSize must be finite
-  std::vector<SurfaceBatch> surfaces;  // in the order of Scene::surfaces; where not Hit, s = t = 0
-};
 
 class Tracer {
  public:
@@ -55,6 +30,12 @@ class Tracer {
   const std::vector<Surface>& surfaces() const { return surfaces_; }  // in camera axes
 
  private:
+  Sight sight(const Deflectors* finite = nullptr) const;
+  void trace_by_planes(TraceBatch& batch) const;
+  void trace_by_recipe(std::size_t recipe, Reach reach, TraceBatch& batch) const;
+  void trace_by_paper(TraceBatch& batch) const;
+  void trace_singly(std::size_t recipe, int i, TraceBatch& batch) const;
+
   Camera camera_;
   Plan plan_;
   std::vector<Surface> surfaces_;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Curved light rays, without lens planes: the reference method `geodesic`.
+//
+// A ray is integrated through the medium of fermat.h from the camera to infinity, with steps of order 8 as
+// long as the tolerance allows. For one mass that is a null geodesic of Schwarzschild, at any distance and
+// angle; for several it is right to first order in each mass. Positions are isotropic coordinates relative to
+// the camera, along any axes; at a mass's Schwarzschild radius r the distance is rho, r = rho (1 + m/2rho)^2.
+// The camera is at rest; angles that it measures are those between coordinate directions.
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "src/fermat.h"
+
+namespace lensplane {
+
+/// An opaque ball. Rays go on through it: what is behind is another layer's matter.
+struct Ball {
+  Vec3 centre;    // metres
+  double radius;  // metres, > 0
+};
+
+/// Where a ray first enters a ball from outside.
+template <class N>
+struct BallHit {
+  bool hit = false;
+  Vector<N> point{N(0.0)};  // metres
+  Vec3 direction{0.0};      // of the ray there, unit vector
+  N length = 0.0;           // of the ray up to there, metres
+  N delay = 0.0;            // metres of light path: coordinate light time, less |point - start|
+};
+
+/// A ray and what it meets. Where `captured`, or without `hit`, the other fields are 0.
+template <class N>
+struct GeodesicRay {
+  bool captured = false;
+  Vector<N> direction{N(0.0)};  // at infinity, unit vector
+  Vector<N> position{N(0.0)};   // of the straight line that the ray approaches: nearest to the start, metres
+
+  /// Coordinate light time from the start, less that of a plane wave with the final direction which passes
+  /// the start and meets no masses; each mass's Shapiro delay counts up to as far beyond it as the start is
+  /// before it. Metres of light path. For one thin mass, to first order,
+  /// delay = 2m ln((z + hypot(z, b)) 2D/b^2), with z = sqrt(D^2 - b^2) the distance from the start to the
+  /// foot.
+  N delay = 0.0;
+
+  std::vector<BallHit<N>> hits{};  // one for each ball
+};
+
+/// A ray that takes more steps is taken to be captured: it winds round a photon sphere.
+inline constexpr int kMaxGeodesicSteps = 2000;
+
+/// Finer tolerances than this are taken for it.
+inline constexpr double kFinestTolerance = 1e-16;
+
+/// The ray from `start` along the unit vector `direction`.
+///
+/// `tolerance` is the error of the final direction in radians, and of positions per distance from the nearest
+/// mass; with N = Dual also the relative error of their derivatives. Rays that wind round a mass enlarge the
+/// errors of their approach as they enlarge the derivative d alpha/db.
+///
+/// Captured at once when it starts on a mass, or on or inside a horizon (S >= 1). Without masses, or with
+/// masses of zero, the ray is straight, bit for bit. All results are finite.
+template <class N>
+GeodesicRay<N> trace_geodesic(std::span<const PointMass> masses, const Vector<N>& start,
+                              const Vector<N>& direction, double tolerance, std::span<const Ball> balls = {});
+
+}  // namespace lensplane

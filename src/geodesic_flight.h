@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A curved ray on its way: which steps it asks for, and what becomes of it.
+
+#pragma once
+
+#include <span>
+
+#include "src/geodesic.h"
+#include "src/geodesic_step.h"
+
+namespace lensplane {
+
+/// What rays fly through.
+struct GeodesicScene {
+  std::span<const PointMass> masses;  // all > 0
+  std::span<const Ball> balls;
+  double tolerance;
+};
+
+/// The way from a point to infinity, to first order in the masses (time: to second order).
+template <class N>
+struct Outlook {
+  Vector<N> bend{N(0.0)};   // of the direction
+  Vector<N> shift{N(0.0)};  // of the straight line approached, metres
+  N delay = 0.0;            // metres; see GeodesicRay::delay
+};
+
+template <class N>
+class GeodesicFlight {
+ public:
+  GeodesicFlight(const GeodesicScene& scene, const Vector<N>& start, const Vector<N>& direction);
+
+  bool flies() const { return flies_; }
+  const Launch<N>& launch() const { return launch_; }
+  const RayPoint<N>& at() const { return at_; }
+  double step_length() const { return h_; }  // of the step to try next, in t
+
+  /// Goes on by that step, or asks for a shorter one.
+  void go_on(const RayStep<N>& step);
+
+  /// What became of it.
+  const GeodesicRay<N>& ray() const { return ray_; }
+
+ private:
+  bool falls_in() const;
+  bool may_meet_balls(double bend) const;
+  bool is_far() const;
+  Outlook<N> outlook(const Vector<N>& direction) const;
+  void arrive();
+
+  GeodesicScene scene_;
+  Launch<N> launch_;
+  RayPoint<N> at_;
+  double h_ = 0.0;
+  int steps_ = 0;
+  bool flies_ = true;
+  GeodesicRay<N> ray_;
+};
+
+}  // namespace lensplane

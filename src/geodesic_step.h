@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One step along a curved ray, of order 8, and how wrong it is.
+//
+// What is integrated is how a ray departs from the straight line on which it starts, so that small
+// deflections and delays keep their digits however long the way: x = start + p0 t + xi, p = p0 + pi.
+
+#pragma once
+
+#include <array>
+
+#include "src/fermat.h"
+#include "src/nystrom.h"
+
+namespace lensplane {
+
+/// How a ray starts.
+template <class N>
+struct Launch {
+  Vector<N> start;      // metres
+  Vector<N> direction;  // unit vector
+  N excess;             // n - 1 at the start
+
+  Vector<N> momentum() const { return times(direction, 1.0 + excess); }  // p0
+};
+
+/// A point of a ray, with all that its next step begins with.
+template <class N>
+struct RayPoint {
+  double t = 0.0;        // metres
+  Vector<N> xi{N(0.0)};  // metres
+  Vector<N> pi{N(0.0)};
+  N length = 0.0;  // of the ray up to here, less t, metres
+  N time = 0.0;    // of light up to here, less t, metres
+  Vector<N> x;     // metres
+  Vector<N> p;
+  Medium<N> medium;  // at x
+};
+
+template <class N>
+RayPoint<N> first_point(std::span<const PointMass> masses, const Launch<N>& launch) {
+  RayPoint<N> point;
+  point.x = launch.start;
+  point.p = launch.momentum();
+  point.medium = medium_at(masses, launch.start);
+  return point;
+}
+
+template <class N>
+struct RayStep {
+  RayPoint<N> end;
+  double error;          // radians; of derivatives, the relative error
+  double largest_force;  // of all stages, per metre
+  double largest_sum;    // of all stages: S
+};
+
+/// Where stage `i` of a step stands, given its sum of a_ij f_j.
+template <class N>
+Vector<N> stage_position(const RayPoint<N>& from, double h, int i, const Vector<N>& bend) {
+  return from.x + (times(from.p, kNystromNodes[i] * h) + times(bend, h * h));
+}
+
+/// What a step adds up over its stages.
+template <class N>
+struct StageSums {
+  Vector<N> shift{N(0.0)}, impulse{N(0.0)}, error_x{N(0.0)}, error_p{N(0.0)};  // forces by the weights
+  N length = 0.0, time = 0.0;
+  double largest_force = 0.0, largest_sum = 0.0;
+};
+
+inline double largest(const Vec3& v) {
+  return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+}
+
+template <class N>
+void add_stage(int i, const Vector<N>& force, const N& excess, double sum, StageSums<N>& sums) {
+  sums.shift += times(force, kNystromMatrix.back()[i]);
+  sums.impulse += times(force, kNystromVelocity[i]);
+  sums.error_x += times(force, kNystromPositionError[i]);
+  sums.error_p += times(force, kNystromVelocityError[i]);
+  sums.length += kNystromVelocity[i] * excess;
+  sums.time += kNystromVelocity[i] * (excess * (2.0 + excess));
+  sums.largest_force = std::max(sums.largest_force, largest(value_of(force)));
+  sums.largest_sum = std::max(sums.largest_sum, sum);
+}
+
+/// The error of order 8 of a step, from the estimate `error6` of that of order 6 and the whole `bend` of the
+/// step: an order that gains the factor q multiplies the error by q each time.
+inline double eighth_order(double error6, double bend) {
+  return error6 > 0.0 ? error6 * std::sqrt(std::sqrt(error6 / bend)) : 0.0;
+}
+
+/// Errors of positions count as the angle at which they are seen from the nearest mass.
+inline double derivative_error(const RayPoint<double>&, const StageSums<double>&, double, double) {
+  return 0.0;
+}
+inline double derivative_error(const RayPoint<Dual>& from, const StageSums<Dual>& sums, double h,
+                               double nearest) {
+  double error = 0.0;
+  for (const auto derivative : {derivative_by_x, derivative_by_y}) {
+    const double size = largest(derivative(from.p)) + largest(derivative(from.x)) / nearest;
+    const double error6 =
+        h * (largest(derivative(sums.error_p)) + h / nearest * largest(derivative(sums.error_x)));
+    const double bend = h * largest(derivative(sums.impulse)) + error6;
+    if (size > 0.0) error = std::max(error, eighth_order(error6, bend) / size);
+  }
+  return error;
+}
+
+/// The step of length `h` that these sums make, up to the medium at its end.
+template <class N>
+RayStep<N> step_of(const Launch<N>& launch, const RayPoint<N>& from, double h, const StageSums<N>& sums,
+                   const Medium<N>& medium) {
+  RayStep<N> step;
+  RayPoint<N>& end = step.end;
+  end.t = from.t + h;
+  end.xi = from.xi + (times(from.pi, h) + times(sums.shift, h * h));
+  end.pi = from.pi + times(sums.impulse, h);
+  end.length = from.length + h * sums.length;
+  end.time = from.time + h * sums.time;
+  end.p = launch.momentum() + end.pi;
+  end.x = launch.start + (times(launch.momentum(), end.t) + end.xi);
+  end.medium = medium;
+  const double nearest = std::min(from.medium.nearest, medium.nearest);
+  const double error6 = h * (largest(value_of(sums.error_p)) + h / nearest * largest(value_of(sums.error_x)));
+  step.error =
+      std::max(eighth_order(error6, h * sums.largest_force), derivative_error(from, sums, h, nearest));
+  step.largest_force = sums.largest_force;
+  step.largest_sum = sums.largest_sum;
+  return step;
+}
+
+/// A step of length `h` in t.
+template <class N>
+RayStep<N> take_step(std::span<const PointMass> masses, const Launch<N>& launch, const RayPoint<N>& from,
+                     double h) {
+  std::array<Medium<N>, kNystromStages> stages;
+  stages[0] = from.medium;
+#pragma GCC unroll 8
+  for (int i = 1; i < kNystromStages; ++i) {
+    Vector<N> bend(N(0.0));
+#pragma GCC unroll 8
+    for (int j = 0; j < i; ++j) bend += times(stages[j].force, kNystromMatrix[i][j]);
+    stages[i] = medium_at(masses, stage_position(from, h, i, bend));
+  }
+  StageSums<N> sums;
+#pragma GCC unroll 9
+  for (int i = 0; i < kNystromStages; ++i) {
+    add_stage(i, stages[i].force, stages[i].excess, stages[i].sum, sums);
+  }
+  return step_of(launch, from, h, sums, stages.back());
+}
+
+}  // namespace lensplane

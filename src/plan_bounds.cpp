@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "src/plan_bounds.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/planes_march.h"
+#include "src/surfaces.h"
+
+namespace lensplane {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A direction and how far, in radians, others are from it at most.
+struct Bundle {
+  Vec3 direction;
+  double spread;
+};
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return 2.0 * std::atan2(length(a - b), length(a + b));
+}
+
+/// The bundle of a tile. Between its corners and the middles of its edges the film may bulge: a tenth more.
+Bundle bundle_of(const Camera& camera, double left, double top, double size) {
+  const auto direction = [&](double x, double y) {
+    return direction_from_film<double>(camera, {left + x * size, top + y * size});
+  };
+  Bundle bundle{direction(0.5, 0.5), 0.0};
+  for (const double x : {0.0, 0.5, 1.0}) {
+    for (const double y : {0.0, 0.5, 1.0}) {
+      bundle.spread = std::max(bundle.spread, 1.1 * angle_between(bundle.direction, direction(x, y)));
+    }
+  }
+  return bundle;
+}
+
+/// One mass as a bundle passes it.
+struct Pass {
+  const Deflector* deflector;
+  double least_b, most_b;
+  double growth;  // of the bend per metre across, at most
+};
+
+/// One plane as a bundle passes it.
+struct PassedPlane {
+  double way;              // from the last plane, and to its farthest foot point
+  double growth;           // sum over its masses
+  std::size_t begin, end;  // its masses among the passes
+};
+
+struct Passes {
+  bool wild = false;
+  std::vector<Pass> masses;
+  std::vector<PassedPlane> planes;
+  Vec3 last{0};
+  double last_spread = 0;
+};
+
+/// Largest |d alpha/db| and alpha/b from b on.
+double growth_at(double m, double b) {
+  const Deflection d = exact_law(m, b);
+  return std::max(-d.dalpha_db, d.alpha / b);
+}
+
+/// Follows a bundle past the masses; wild as soon as nothing is known any more.
+Passes pass_all(const Deflectors& everything, const Bundle& bundle, double unseen_angle,
+                std::vector<LensBound>& lenses) {
+  Passes result;
+  const RayPath<double> path = march_planes(everything, bundle.direction);
+  result.wild = path.captured || path.bends != static_cast<int>(everything.outward);
+  double across = 0.0;  // spread of the rays' feet, metres
+  double spread = bundle.spread;
+  std::size_t passage = 0;
+  for (std::size_t k = 0; k < everything.outward && passage < path.passages.size(); ++k) {
+    const DeflectorPlane& plane = everything.planes[k];
+    const RaySegment<double>& segment = path.segments[k];
+    const double ahead = (plane.centre - segment.start).dot(segment.direction);
+    PassedPlane passed{std::abs(ahead), 0.0, result.masses.size(), 0};
+    double more_spread = 0.0;
+    for (const Deflector& deflector : plane.deflectors) {
+      if (passage == path.passages.size()) break;
+      const double b = path.passages[passage++].b;
+      const double along = std::abs((deflector.position - segment.start).dot(segment.direction));
+      passed.way = std::max(passed.way, along);
+      const double aside = across + along * spread * (1.0 + spread);
+      const double unseen = unseen_angle * length(deflector.position);
+      const double least = std::max(b - aside, unseen);
+      if (deflector.index * least < kWildRatio * kCriticalRatio * deflector.m || !(spread < 0.5)) {
+        lenses[deflector.lens].wild = true;
+        result.wild = true;
+        continue;
+      }
+      const Deflection most = exact_law(deflector.m, least);
+      const double growth = growth_at(deflector.m, least);
+      more_spread += std::min(growth * aside, 2.0 * most.alpha);
+      passed.growth += growth;
+      lenses[deflector.lens].wild = lenses[deflector.lens].wild || growth * along > kWildGrowth;
+      result.masses.push_back({&deflector, least, b + aside, growth});
+    }
+    passed.end = result.masses.size();
+    result.wild = result.wild || passed.growth * passed.way > kWildGrowth;
+    result.planes.push_back(passed);
+    if (result.wild) continue;
+    across += passed.way * spread * (1.0 + spread);
+    spread += more_spread;
+  }
+  if (!path.captured) result.last = path.segments.back().direction;
+  result.last_spread = spread;
+  return result;
+}
+
+/// How errors at one place grow to the end of the ray: radians there per radian, and per metre.
+struct Growth {
+  double per_angle = 1.0;
+  double per_metre = 0.0;
+
+  Growth before(const PassedPlane& plane) const {
+    return {per_angle * (1.0 + plane.growth * plane.way) + per_metre * plane.way,
+            per_angle * plane.growth + per_metre};
+  }
+};
+
+/// What the finite distance of the camera changes: the bend, and where the ray goes on.
+struct FiniteBound {
+  double angle, shift;
+};
+FiniteBound finite_bound(const Pass& pass) {
+  const double m = pass.deflector->m;
+  const double n = pass.deflector->index;
+  const double r = length(pass.deflector->position);
+  const double b = std::min(pass.most_b, r);
+  const double cosine = std::sqrt(std::max(0.0, 1.0 - (b / r) * (b / r)));
+  const double h = 0.25 * (1.0 + cosine) * (1.0 + cosine) * (2.0 - cosine);
+  const double excess = exact_law(m, pass.least_b).alpha - 4.0 * m / pass.least_b;
+  return {2.0 * m * b / (r * r) + excess * (1.0 - h) + (n - 1.0) * b * pass.growth, (n - 1.0) * b};
+}
+
+/// What the finite distance of spheres changes, as an angle at the camera.
+double surface_bound(const std::vector<Surface>& surfaces, const Pass& pass) {
+  double most = 0.0;
+  for (const Surface& surface : surfaces) {
+    const auto* sphere = std::get_if<Sphere>(&surface);
+    if (!sphere) continue;
+    const double to_mass = length(sphere->centre - pass.deflector->position) - sphere->radius;
+    const double to_camera = length(sphere->centre) - sphere->radius;
+    if (!(to_mass > 0.0 && to_camera > 0.0)) return kInfinity;
+    most = std::max(most, 2.0 * pass.deflector->m * std::min(1.0, pass.most_b / to_mass) / to_camera);
+  }
+  return most;
+}
+
+/// Radians on the sky to pixels of the film: on a flat plate more towards its edges. Infinite where the
+/// bundle may leave the plate's half of the sky.
+double pixels_per_radian(const Camera& camera, bool plates, const Passes& passes) {
+  const double middle = 1.0 / pixel_angle(camera);
+  if (!plates || camera.projection != Projection::Perspective) return middle;
+  const double off_axis = angle_between(passes.last, Vec3(0, 0, -1)) + passes.last_spread;
+  const double cosine = off_axis < 1.55 ? std::cos(off_axis) : 0.0;
+  return cosine > 0.0 ? middle / (cosine * cosine) : kInfinity;
+}
+
+/// The surfaces of the scene, and what of them matters here.
+struct Stage {
+  const Camera& camera;
+  std::vector<Surface> surfaces;  // camera axes
+  bool plates = false;
+  double per_metre = 0.0;  // of an error across the ray at its end: 1/distance of the nearest sphere
+};
+
+Stage stage_of(const Scene& scene) {
+  Stage stage{scene.camera, {}};
+  for (const Surface& surface : scene.surfaces) {
+    stage.surfaces.push_back(camera_from_world(scene.camera, surface));
+    stage.plates = stage.plates || std::holds_alternative<Plate>(surface);
+    if (const auto* sphere = std::get_if<Sphere>(&stage.surfaces.back())) {
+      const double distance = length(sphere->centre) - sphere->radius;
+      stage.per_metre = std::max(stage.per_metre, distance > 0.0 ? 1.0 / distance : kInfinity);
+    }
+  }
+  return stage;
+}
+
+void raise(double& most, double value) {
+  most = std::max(most, value);
+}
+
+TileBound bound_tile(const Stage& stage, const Deflectors& everything, const Bundle& bundle,
+                     std::vector<LensBound>& lenses) {
+  const double unseen = kUnseenPixels * pixel_angle(stage.camera);
+  const Passes passes = pass_all(everything, bundle, unseen, lenses);
+  const double px = pixels_per_radian(stage.camera, stage.plates, passes);
+  TileBound tile;
+  tile.wild = passes.wild || !(px < kInfinity);
+  if (tile.wild) return tile;
+  Growth growth{1.0, stage.per_metre};
+  for (auto plane = passes.planes.rbegin(); plane != passes.planes.rend(); ++plane) {
+    for (std::size_t i = plane->begin; i < plane->end; ++i) {
+      const Pass& pass = passes.masses[i];
+      const double m = pass.deflector->m;
+      LensBound& lens = lenses[pass.deflector->lens];
+      // A bend that is off by an angle also displaces the ray by at most b times it.
+      const double grown = px * (growth.per_angle + growth.per_metre * pass.most_b);
+      const double weak = grown * weak_law_error(m, pass.least_b);
+      const double second_order = grown * second_order_law_error(m, pass.least_b);
+      const FiniteBound finite = finite_bound(pass);
+      tile.weak_px += weak;
+      tile.second_order_px += second_order;
+      raise(lens.moves_px, grown * exact_law(m, pass.least_b).alpha);
+      raise(lens.weak_px, weak);
+      raise(lens.second_order_px, second_order);
+      raise(lens.finite_px, px * (growth.per_angle * finite.angle + growth.per_metre * finite.shift +
+                                  surface_bound(stage.surfaces, pass)));
+    }
+    growth = growth.before(*plane);
+  }
+  return tile;
+}
+
+void merge(const std::vector<LensBound>& from, std::vector<LensBound>& into) {
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    raise(into[i].moves_px, from[i].moves_px);
+    raise(into[i].weak_px, from[i].weak_px);
+    raise(into[i].second_order_px, from[i].second_order_px);
+    raise(into[i].finite_px, from[i].finite_px);
+    into[i].wild = into[i].wild || from[i].wild;
+  }
+}
+
+}  // namespace
+
+FilmBounds bounds_of(const Scene& scene, const Deflectors& everything, const TileLevels& tiles) {
+  const Stage stage = stage_of(scene);
+  const int count = tiles.columns * tiles.rows;
+  FilmBounds result;
+  result.tiles.resize(static_cast<std::size_t>(count));
+  result.lenses.resize(scene.lenses.size());
+  // Each thread keeps its own maxima; the largest of them do not depend on who found them.
+  tbb::enumerable_thread_specific<std::vector<LensBound>> found(
+      [&] { return std::vector<LensBound>(scene.lenses.size()); });
+  tbb::parallel_for(tbb::blocked_range<int>(0, count), [&](const tbb::blocked_range<int>& range) {
+    std::vector<LensBound>& lenses = found.local();
+    for (int i = range.begin(); i != range.end(); ++i) {
+      const double left = (i % tiles.columns) * tiles.size - scene.camera.overscan;
+      const double top = (i / tiles.columns) * tiles.size - scene.camera.overscan;
+      const Bundle bundle = bundle_of(scene.camera, left, top, tiles.size);
+      result.tiles[static_cast<std::size_t>(i)] = bound_tile(stage, everything, bundle, lenses);
+    }
+  });
+  for (const auto& lenses : found) merge(lenses, result.lenses);
+  return result;
+}
+
+}  // namespace lensplane

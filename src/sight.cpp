@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "src/sight.h"
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+
+#include "src/constants.h"
+
+namespace lensplane {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Captured rays end here; what they met before stays.
+void end_captured(const BatchArray& captured, int bends, SurfaceBatch& surface) {
+  for (int i = 0; i < kBatchSize; ++i) {
+    if (captured[i] == 0.0 || surface.outcome[i] == Outcome::Hit) continue;
+    surface.s[i] = surface.t[i] = 0.0;
+    surface.outcome[i] = Outcome::Captured;
+    if (!surface.passes) continue;
+    PassBatch& p = *surface.passes;
+    p.ds_dx[i] = p.ds_dy[i] = p.dt_dx[i] = p.dt_dy[i] = p.magnification[i] = p.delay[i] = 0.0;
+    p.bends[i] = bends;
+  }
+}
+
+template <class Number>
+void fill_along(const Sight& sight, const LineBatch<Number>& rays, int bends, PassBatch& passes) {
+  if (sight.effects.direction) {
+    for (int i = 0; i < kBatchSize; ++i) {
+      const Vec3 d = sight.camera.axes.parent_from_local(value_of(rays.direction.get(i)));
+      passes.dir_x[i] = d.x, passes.dir_y[i] = d.y, passes.dir_z[i] = d.z;
+    }
+  }
+  if (sight.effects.bends) std::fill_n(passes.bends, kBatchSize, bends);
+  if (sight.effects.delay) {
+    for (int i = 0; i < kBatchSize; ++i) {
+      const double wave_front = value_of(rays.start.get(i)).dot(value_of(rays.direction.get(i)));
+      passes.delay[i] = ((rays.path.v[i] - wave_front) + rays.shapiro.v[i]) / kLightSpeed;
+    }
+  }
+}
+
+template <class Number>
+void see_at_infinity(const Sight& sight, const Surface& surface, const LineBatch<Number>& rays, int bends,
+                     const TraceBatch& batch, SurfaceBatch& result) {
+  const Camera& camera = sight.camera;
+  const bool plate = std::holds_alternative<Plate>(surface);
+  const bool kernel = plate && camera.projection == Projection::Perspective && bends > 0;
+  if (kernel) {
+    meet_plate(camera, batch.x, batch.y, rays, result);
+  } else {
+    for (int i = 0; i < kBatchSize; ++i) {
+      const FilmPosition film{batch.x[i], batch.y[i]};
+      const auto first = direction_from_film<Number>(camera, film);
+      const auto last = rays.direction.get(i);
+      set(sight, plate ? meet_plate(camera, film, first, last) : meet_sky(camera, first, last), i, result);
+    }
+  }
+  if (result.passes) fill_along(sight, rays, bends, *result.passes);
+  end_captured(rays.captured, bends, result);
+}
+
+}  // namespace
+
+bool Sight::any_sphere() const {
+  return std::any_of(surfaces.begin(), surfaces.end(),
+                     [](const Surface& surface) { return std::holds_alternative<Sphere>(surface); });
+}
+
+TraceBatch make_batch(const Sight& sight) {
+  TraceBatch batch;
+  batch.surfaces.resize(sight.surfaces.size());
+  if (sight.effects.any()) {
+    for (SurfaceBatch& surface : batch.surfaces) surface.passes = std::make_unique<PassBatch>();
+  }
+  clear(batch);
+  return batch;
+}
+
+void clear(TraceBatch& batch) {
+  for (SurfaceBatch& surface : batch.surfaces) {
+    std::fill_n(surface.s, kBatchSize, 0.0);
+    std::fill_n(surface.t, kBatchSize, 0.0);
+    std::fill_n(surface.distance, kBatchSize, 0.0);
+    surface.outcome.fill(Outcome::Missed);
+    if (surface.passes) *surface.passes = {};
+  }
+}
+
+template <class Number>
+void set(const Sight& sight, const SurfaceHit<Number>& hit, int i, SurfaceBatch& surface) {
+  surface.s[i] = value_of(hit.st.s);
+  surface.t[i] = value_of(hit.st.t);
+  surface.distance[i] = hit.distance;
+  surface.outcome[i] = hit.outcome;
+  if (!surface.passes) return;
+  PassBatch& passes = *surface.passes;
+  if constexpr (std::is_same_v<Number, Dual>) {
+    passes.ds_dx[i] = hit.st.s.dx, passes.ds_dy[i] = hit.st.s.dy;
+    passes.dt_dx[i] = hit.st.t.dx, passes.dt_dy[i] = hit.st.t.dy;
+    passes.magnification[i] = hit.magnification;
+  }
+  passes.delay[i] = hit.delay / kLightSpeed;
+  const Vec3 d = sight.camera.axes.parent_from_local(hit.direction);
+  passes.dir_x[i] = d.x, passes.dir_y[i] = d.y, passes.dir_z[i] = d.z;
+  passes.bends[i] = hit.bends;
+}
+
+void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k) {
+  for (std::size_t n = 0; n < from.surfaces.size(); ++n) {
+    const SurfaceBatch& a = from.surfaces[n];
+    SurfaceBatch& b = to.surfaces[n];
+    b.s[k] = a.s[i], b.t[k] = a.t[i], b.distance[k] = a.distance[i], b.outcome[k] = a.outcome[i];
+    if (!a.passes) continue;
+    const PassBatch& p = *a.passes;
+    PassBatch& q = *b.passes;
+    q.ds_dx[k] = p.ds_dx[i], q.ds_dy[k] = p.ds_dy[i], q.dt_dx[k] = p.dt_dx[i], q.dt_dy[k] = p.dt_dy[i];
+    q.magnification[k] = p.magnification[i], q.delay[k] = p.delay[i], q.bends[k] = p.bends[i];
+    q.dir_x[k] = p.dir_x[i], q.dir_y[k] = p.dir_y[i], q.dir_z[k] = p.dir_z[i];
+  }
+}
+
+template <class Number>
+void see_spheres(const Sight& sight, const Ends& ends, int bends, LineBatch<Number>& rays,
+                 TraceBatch& batch) {
+  alignas(64) BatchArray entry;
+  for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
+    const auto* sphere = std::get_if<Sphere>(&sight.surfaces[k]);
+    if (!sphere) continue;
+    VectorLane<Number> start = rays.start;
+    for (int i = 0; sight.finite && i < kBatchSize; ++i) {
+      start.set(
+          i, start.get(i) + finite_shift(*sight.finite, start.get(i), rays.direction.get(i), sphere->centre));
+    }
+    enter_sphere(*sphere, start, rays.direction, ends, entry);
+    SurfaceBatch& surface = batch.surfaces[k];
+    for (int i = 0; i < kBatchSize; ++i) {
+      if (!(entry[i] < kInfinity) || surface.outcome[i] == Outcome::Hit || rays.captured[i] != 0.0) continue;
+      const Vector<Number> first = direction_from_film<Number>(sight.camera, {batch.x[i], batch.y[i]});
+      const Number way = sphere_entry(start.get(i), rays.direction.get(i), sphere->centre, sphere->radius);
+      auto hit = meet_sphere_at(*sphere, first, start.get(i) + rays.direction.get(i) * way);
+      hit.distance = rays.path.v[i] + entry[i];
+      hit.direction = value_of(rays.direction.get(i));
+      hit.bends = bends;
+      set(sight, hit, i, surface);
+      if (sight.effects.delay) rays.irregular[i] = 1.0;
+    }
+  }
+}
+
+template <class Number>
+void see_infinity(const Sight& sight, const LineBatch<Number>& rays, int bends, TraceBatch& batch) {
+  for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
+    SurfaceBatch& surface = batch.surfaces[k];
+    if (!std::holds_alternative<Sphere>(sight.surfaces[k])) {
+      see_at_infinity(sight, sight.surfaces[k], rays, bends, batch, surface);
+      continue;
+    }
+    if (surface.passes) {  // of rays that miss it
+      for (int i = 0; i < kBatchSize; ++i) {
+        if (surface.outcome[i] == Outcome::Hit) continue;
+        SurfaceHit<Number> miss;
+        miss.direction = value_of(rays.direction.get(i));
+        miss.bends = bends;
+        set(sight, miss, i, surface);
+      }
+    }
+    end_captured(rays.captured, bends, surface);
+  }
+}
+
+template void set(const Sight&, const SurfaceHit<double>&, int, SurfaceBatch&);
+template void set(const Sight&, const SurfaceHit<Dual>&, int, SurfaceBatch&);
+template void see_spheres(const Sight&, const Ends&, int, LineBatch<double>&, TraceBatch&);
+template void see_spheres(const Sight&, const Ends&, int, LineBatch<Dual>&, TraceBatch&);
+template void see_infinity(const Sight&, const LineBatch<double>&, int, TraceBatch&);
+template void see_infinity(const Sight&, const LineBatch<Dual>&, int, TraceBatch&);
+
+}  // namespace lensplane

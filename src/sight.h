@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From rays to results: what rays on their way meet on each surface, written to a SurfaceBatch with the
+// passes that are called for.
+
+#pragma once
+
+#include <vector>
+
+#include "src/effects.h"
+#include "src/surfaces_batch.h"
+
+namespace lensplane {
+
+/// A batch of film positions, in, and what they see, out.
+struct TraceBatch {
+  alignas(64) BatchArray x{}, y{};     // pixels; all kBatchSize must be finite
+  std::vector<SurfaceBatch> surfaces;  // in the order of Scene::surfaces; where not Hit, s = t = 0
+};
+
+/// What there is to see, and what is asked of it.
+struct Sight {
+  const Camera& camera;
+  const std::vector<Surface>& surfaces;  // in camera axes
+  const Effects& effects;
+  const Deflectors* finite = nullptr;  // the masses, when their finite distance from surfaces counts
+
+  bool any_sphere() const;
+};
+
+/// A batch with room for what is asked; nothing is met yet.
+TraceBatch make_batch(const Sight& sight);
+
+/// Sets everything to nothing met.
+void clear(TraceBatch& batch);
+
+/// Writes one ray's result on one surface.
+template <class Number>
+void set(const Sight& sight, const SurfaceHit<Number>& hit, int i, SurfaceBatch& surface);
+
+/// Copies one ray's results, on all surfaces.
+void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k);
+
+/// Lets the rays meet the spheres on their present straight stretch. Rays whose arrival time is asked for are
+/// marked irregular where they hit: a batch does not keep the masses that they passed.
+template <class Number>
+void see_spheres(const Sight& sight, const Ends& ends, int bends, LineBatch<Number>& rays, TraceBatch& batch);
+
+/// Lets the rays meet what lies at infinity. `bends`: how many planes bent them.
+template <class Number>
+void see_infinity(const Sight& sight, const LineBatch<Number>& rays, int bends, TraceBatch& batch);
+
+}  // namespace lensplane

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "src/single_ray.h"
+
+#include <type_traits>
+
+#include "src/geodesic.h"
+#include "src/march.h"
+#include "src/planes_march.h"
+
+namespace lensplane {
+namespace {
+
+template <class Number>
+SurfaceHit<Number> hit_of_ball(const Sphere& sphere, const Vector<Number>& first, const BallHit<Number>& ball,
+                               bool captured) {
+  SurfaceHit<Number> hit;
+  hit.outcome = captured ? Outcome::Captured : Outcome::Missed;
+  if (!ball.hit) return hit;
+  hit = meet_sphere_at(sphere, first, ball.point);
+  hit.distance = value_of(ball.length);
+  hit.direction = ball.direction;
+  hit.delay = value_of(ball.delay);
+  return hit;
+}
+
+template <class Number>
+std::vector<SurfaceHit<Number>> trace_curved(const Sight& sight, const Plan& plan, FilmPosition film) {
+  std::vector<PointMass> masses;
+  for (const LensPlane& plane : plan.planes) {
+    for (const Source& source : plane.sources) masses.push_back({source.m, source.position});
+  }
+  std::vector<Ball> balls;
+  for (const Surface& surface : sight.surfaces) {
+    if (const auto* sphere = std::get_if<Sphere>(&surface)) balls.push_back({sphere->centre, sphere->radius});
+  }
+  const auto first = direction_from_film<Number>(sight.camera, film);
+  const Vector<Number> camera(Number(0.0), Number(0.0), Number(0.0));
+  const auto ray = trace_geodesic<Number>(masses, camera, first, plan.geodesic_tolerance, balls);
+  std::vector<SurfaceHit<Number>> hits;
+  auto ball = ray.hits.begin();
+  for (const Surface& surface : sight.surfaces) {
+    if (const auto* sphere = std::get_if<Sphere>(&surface)) {
+      hits.push_back(hit_of_ball(*sphere, first, *ball++, ray.captured));
+    } else if (ray.captured) {
+      hits.emplace_back().outcome = Outcome::Captured;
+    } else {
+      hits.push_back(std::holds_alternative<Plate>(surface)
+                         ? meet_plate(sight.camera, film, first, ray.direction)
+                         : meet_sky(sight.camera, first, ray.direction));
+      hits.back().delay = value_of(ray.delay);
+    }
+  }
+  return hits;
+}
+
+}  // namespace
+
+template <class Number>
+RayPath<Number> path_of_ray(const Camera& camera, const Plan& plan, std::size_t recipe, FilmPosition film) {
+  const auto first = direction_from_film<Number>(camera, film);
+  if (plan.method == Method::Planes) return march_planes(plan.recipes[recipe], first);
+  return march(plan.planes, Vector<Number>(Number(0.0), Number(0.0), Number(0.0)), first);
+}
+
+template <class Number>
+std::vector<SurfaceHit<Number>> trace_ray(const Sight& sight, const Plan& plan, std::size_t recipe,
+                                          FilmPosition film) {
+  if (plan.method == Method::Geodesic) return trace_curved<Number>(sight, plan, film);
+  const RayPath<Number> path = path_of_ray<Number>(sight.camera, plan, recipe, film);
+  const bool finite = plan.method == Method::Planes && plan.recipes[recipe].finite_distance;
+  std::vector<SurfaceHit<Number>> hits;
+  for (const Surface& surface : sight.surfaces) {
+    hits.push_back(meet(surface, sight.camera, film, path, finite ? &plan.recipes[recipe] : nullptr));
+  }
+  return hits;
+}
+
+template RayPath<double> path_of_ray(const Camera&, const Plan&, std::size_t, FilmPosition);
+template RayPath<Dual> path_of_ray(const Camera&, const Plan&, std::size_t, FilmPosition);
+template std::vector<SurfaceHit<double>> trace_ray(const Sight&, const Plan&, std::size_t, FilmPosition);
+template std::vector<SurfaceHit<Dual>> trace_ray(const Sight&, const Plan&, std::size_t, FilmPosition);
+
+}  // namespace lensplane

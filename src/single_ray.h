@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One ray by any method, through the readable references: for rays that batches leave aside, for probes, and
+// for what has no batches.
+
+#pragma once
+
+#include "src/plan.h"
+#include "src/sight.h"
+
+namespace lensplane {
+
+/// What the ray through `film` meets on each surface of `sight`, in their order. `recipe`: which of the
+/// plan's, by `planes`.
+template <class Number>
+std::vector<SurfaceHit<Number>> trace_ray(const Sight& sight, const Plan& plan, std::size_t recipe,
+                                          FilmPosition film);
+
+/// The ray's path by the plane methods.
+template <class Number>
+RayPath<Number> path_of_ray(const Camera& camera, const Plan& plan, std::size_t recipe, FilmPosition film);
+
+}  // namespace lensplane
