@@ -37,7 +37,7 @@ std::vector<std::string> row_of(const Shot& shot, const PlannedFrame& planned, c
           lens.reason};
 }
 
-/// "60 more: weak 50, culled 10; each moves at most 0.01 px, left out together at most 0.002 px".
+/// "and 60 more: culled 10, weak 50; each moves at most 0.01 px, left out together at most 0.002 px".
 std::string summary_of(const PlannedFrame& planned, const std::vector<LensPlan>& rest) {
   std::map<std::string, int> counts;
   double moves = 0, bound = 0;
@@ -50,8 +50,9 @@ std::string summary_of(const PlannedFrame& planned, const std::vector<LensPlan>&
   for (const auto& [fate, count] : counts) fates.push_back(fmt::format("{} {}", fate, count));
   const std::string line = fmt::format("  and {} more: {}", rest.size(), comma_list(fates));
   if (planned.plan.method != Method::Planes) return line + "\n";
-  return line +
-         fmt::format("; each moves at most {}, left out together at most {}\n", pixels(moves), pixels(bound));
+  const std::string most =
+      std::isfinite(moves) ? "each moves at most " + pixels(moves) : "some move without limit";
+  return line + fmt::format("; {}, left out together at most {}\n", most, pixels(bound));
 }
 
 std::string lens_table(const Shot& shot, const PlannedFrame& planned) {

@@ -109,10 +109,12 @@ std::string text_from_probe(const Shot& shot, const ProbedFrame& probed) {
   const Probe& probe = probed.probe;
   std::string text = fmt::format("shot {}, frame {:04}, film ({}, {}){}\n", shot.name, probed.frame,
                                  probe.film.x, probe.film.y, in_frame(probed) ? "" : ", outside the frame");
-  Rows rows = {{"looks along", direction_text(probe.first)},
-               {"last direction", direction_text(probe.last)},
-               {"ray", fate_of(probe)}};
-  if (probe.recipe < probed.plan.recipes.size())
+  Rows rows = {{"ray", fate_of(probe)}};
+  if (probe.seen) {
+    rows.push_back({"looks along", direction_text(probe.first)});
+    rows.push_back({"last direction", direction_text(probe.last)});
+  }
+  if (probe.seen && probe.recipe < probed.plan.recipes.size())
     rows.push_back({"lenses by their laws", laws_of(probed.plan.recipes[probe.recipe])});
   text += text_from_rows(rows) + crossing_table(shot, probe);
   for (std::size_t i = 0; i < probe.surfaces.size(); ++i)

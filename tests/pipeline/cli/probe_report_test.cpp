@@ -27,6 +27,7 @@ Shot example_layers() {
 
 ProbedFrame example_probe() {
   ProbedFrame probed{1001, {}, {}, {}};
+  probed.plan.method = Method::Kishi;
   probed.camera.width = probed.camera.height = 100;
   Probe& probe = probed.probe;
   probe.film = {-0.5, 20.25};
@@ -49,12 +50,12 @@ ProbedFrame example_probe() {
 TEST(ProbeText, TellsTheRaysWay) {
   EXPECT_EQ(text_from_probe(example_layers(), example_probe()),
             "shot example, frame 1001, film (-0.5, 20.25), outside the frame\n"
+            "  ray             goes on for ever\n"
             "  looks along     0 0 -1\n"
             "  last direction  0 0.6 -0.8\n"
-            "  ray             goes on for ever\n"
             "\n"
-            "  passes  after         b/m  alpha/rad     alpha/deg\n"
-            "  hole    1e+09 m       100  0.0174532925  1\n"
+            "  passes  after    b/m  alpha/rad     alpha/deg\n"
+            "  hole    1e+09 m  100  0.0174532925  1\n"
             "\n"
             "layer earth: missed\n"
             "\n"
@@ -75,6 +76,7 @@ TEST(ProbeText, SaysWhereThereIsNoLight) {
   EXPECT_THAT(text_from_probe(example_layers(), probed), Not(HasSubstr("outside the frame")));
   probed.probe.seen = false;
   EXPECT_THAT(text_from_probe(example_layers(), probed), HasSubstr("outside the circle of the fisheye"));
+  EXPECT_THAT(text_from_probe(example_layers(), probed), Not(HasSubstr("looks along")));
 }
 
 TEST(ProbeJson, BringsEveryNumberBack) {
