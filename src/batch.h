@@ -58,8 +58,8 @@ struct VectorLane {
 }  // namespace lensplane
 
 // Each kernel is compiled for these instruction sets; the loader picks one. Sanitizers are not up when it
-// does.
-#if defined(__x86_64__) && !defined(LENSPLANE_SANITIZE)
+// does; LENSPLANE_BASELINE leaves only what every processor has, to compare with.
+#if defined(__x86_64__) && !defined(LENSPLANE_SANITIZE) && !defined(LENSPLANE_BASELINE)
 #define LENSPLANE_KERNEL [[gnu::target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")]]
 #else
 #define LENSPLANE_KERNEL

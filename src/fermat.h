@@ -15,7 +15,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
+#include <vector>
 
 #include "src/basis.h"
 #include "src/dual.h"
@@ -35,6 +37,14 @@ struct PointMass {
   Vec3 position;  // metres
 };
 
+/// Masses of zero left out, so that they change nothing, bit for bit.
+inline std::vector<PointMass> without_zeros(std::span<const PointMass> masses) {
+  std::vector<PointMass> result;
+  std::copy_if(masses.begin(), masses.end(), std::back_inserter(result),
+               [](const PointMass& mass) { return mass.m > 0.0; });
+  return result;
+}
+
 template <class N>
 Vector<N> times(const Vector<N>& v, const N& k) {
   return {v.x * k, v.y * k, v.z * k};
@@ -51,9 +61,9 @@ Vector<N> relative_to(const Vec3& origin, const Vector<N>& x) {
 /// Sums over the masses at a point.
 template <class N>
 struct MassSums {
-  N sum = 0.0;                    // S
-  Vector<N> fall{N(0.0)};         // -grad S, per metre
-  double nearest_inverse2 = 0.0;  // 1/r^2 of the nearest mass
+  N sum = 0.0;              // S
+  Vector<N> fall{N(0.0)};   // -grad S, per metre
+  double closeness2 = 0.0;  // 1/r^2 of the nearest mass
 };
 
 template <class N>
@@ -65,7 +75,7 @@ void add_mass(const PointMass& mass, const Vector<N>& x, MassSums<N>& sums) {
   const N s = (0.5 * mass.m) * (sqrt(r2) * inverse2);
   sums.sum += s;
   sums.fall += times(r, s * inverse2);
-  sums.nearest_inverse2 = std::max(sums.nearest_inverse2, value_of(inverse2));
+  sums.closeness2 = std::max(sums.closeness2, value_of(inverse2));
 }
 
 /// The medium at a point. On and inside horizons, where S >= 1, only S means anything.
@@ -74,7 +84,7 @@ struct Medium {
   Vector<N> force{N(0.0)};  // grad(n^2/2), per metre
   N excess = 0.0;           // n - 1, without loss of digits in a thin medium
   double sum = 0.0;         // S
-  double nearest = 0.0;     // metres to the nearest mass
+  double closeness2 = 0.0;  // 1/r^2 of the nearest mass, metres^-2
 };
 
 template <class N>
@@ -83,8 +93,7 @@ Medium<N> medium_of(const MassSums<N>& sums) {
   const N above = 1.0 + s, below = reciprocal(1.0 - s);
   const N above2 = above * above;
   const N slope = ((2.0 * s - 4.0) * (above2 * above2 * above)) * (below * below * below);  // -n dn/dS
-  return {times(sums.fall, slope), s * (4.0 + s * (3.0 + s)) * below, value_of(s),
-          1.0 / std::sqrt(sums.nearest_inverse2)};
+  return {times(sums.fall, slope), s * (4.0 + s * (3.0 + s)) * below, value_of(s), sums.closeness2};
 }
 
 template <class N>

@@ -3,7 +3,6 @@
 #include "src/geodesic.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "src/geodesic_entry.h"
 #include "src/geodesic_flight.h"
@@ -33,12 +32,9 @@ GeodesicRay<N> straight_ray(const Vector<N>& start, const Vector<N>& direction, 
 template <class N>
 GeodesicRay<N> trace_geodesic(std::span<const PointMass> masses, const Vector<N>& start,
                               const Vector<N>& direction, double tolerance, std::span<const Ball> balls) {
-  const auto has_mass = [](const PointMass& mass) { return mass.m > 0.0; };
-  if (std::ranges::none_of(masses, has_mass)) return straight_ray(start, direction, balls);
-  if (!std::ranges::all_of(masses, has_mass)) {
-    std::vector<PointMass> real;
-    std::ranges::copy_if(masses, std::back_inserter(real), has_mass);
-    return trace_geodesic<N>(real, start, direction, tolerance, balls);
+  if (masses.empty()) return straight_ray(start, direction, balls);
+  if (std::ranges::any_of(masses, [](const PointMass& mass) { return !(mass.m > 0.0); })) {
+    return trace_geodesic<N>(without_zeros(masses), start, direction, tolerance, balls);
   }
   GeodesicFlight<N> flight({masses, balls, std::max(kFinestTolerance, tolerance)}, start, direction);
   while (flight.flies()) {

@@ -17,7 +17,7 @@
 
 namespace lensplane {
 
-/// An opaque ball. Rays go on through it: what is behind is another layer's matter.
+/// An opaque ball. Rays go on through it: each layer of a picture has its own.
 struct Ball {
   Vec3 centre;    // metres
   double radius;  // metres, > 0
@@ -33,7 +33,8 @@ struct BallHit {
   N delay = 0.0;            // metres of light path: coordinate light time, less |point - start|
 };
 
-/// A ray and what it meets. Where `captured`, or without `hit`, the other fields are 0.
+/// A ray and what it meets. Where it is captured there is no asymptote, but there may be hits on the way;
+/// what is not there is 0.
 template <class N>
 struct GeodesicRay {
   bool captured = false;
@@ -50,7 +51,7 @@ struct GeodesicRay {
   std::vector<BallHit<N>> hits{};  // one for each ball
 };
 
-/// A ray that takes more steps is taken to be captured: it winds round a photon sphere.
+/// A ray that takes more steps is taken to be captured.
 inline constexpr int kMaxGeodesicSteps = 2000;
 
 /// Finer tolerances than this are taken for it.
@@ -59,11 +60,13 @@ inline constexpr double kFinestTolerance = 1e-16;
 /// The ray from `start` along the unit vector `direction`.
 ///
 /// `tolerance` is the error of the final direction in radians, and of positions per distance from the nearest
-/// mass; with N = Dual also the relative error of their derivatives. Rays that wind round a mass enlarge the
-/// errors of their approach as they enlarge the derivative d alpha/db.
+/// mass; with N = Dual also the relative error of their derivatives. Delays are as right, relatively, as the
+/// deflection is. Near capture, or behind several masses, errors made early grow as the rays themselves
+/// spread.
 ///
-/// Captured at once when it starts on a mass, or on or inside a horizon (S >= 1). Without masses, or with
-/// masses of zero, the ray is straight, bit for bit. All results are finite.
+/// Captured at once when it starts on a mass, or on or inside a horizon (S >= 1). Masses of zero change
+/// nothing; without masses the ray is straight: bit for bit. All results are finite; where distances overflow
+/// (beyond 1e150 m) the ray counts as captured.
 template <class N>
 GeodesicRay<N> trace_geodesic(std::span<const PointMass> masses, const Vector<N>& start,
                               const Vector<N>& direction, double tolerance, std::span<const Ball> balls = {});

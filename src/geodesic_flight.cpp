@@ -10,13 +10,24 @@ namespace {
 /// Steps reach no farther than this share of the way to the nearest mass, so that none is overlooked.
 constexpr double kFirstStep = 0.5, kLongestStep = 0.9;
 
-/// From one step to the next, the change of length in proportion to the distance from the nearest mass.
-constexpr double kSlowest = 0.2, kFastest = 6.0, kCaution = 0.9;
-constexpr double kReceding = 1.2;
+/// S to which rays that fall in are followed for the sake of a ball inside a photon sphere: r = 2.005 m.
+constexpr double kDeepestBall = 0.9;
 
-/// ratio^(-1/8), which unlike std::pow is the same on every machine.
-double step_factor(double ratio) {
-  return 1.0 / std::sqrt(std::sqrt(std::sqrt(ratio)));
+/// The length of a step follows the distance from the nearest mass, inward in proportion, outward by no more
+/// than kReceding, and what the error of the step before asks for, between these factors.
+constexpr double kReceding = 1.2, kSlowest = 0.2, kFastest = 6.0, kCaution = 0.9;
+
+/// Metres that rays lie apart per radian of their directions.
+double spread(const Launch<double>&, const RayPoint<double>&) {
+  return 0.0;
+}
+double spread(const Launch<Dual>& launch, const RayPoint<Dual>& at) {
+  const auto spread_of = [&](auto by) {
+    const double angle = largest(by(launch.momentum())) + largest(by(at.p));
+    return angle > 0.0 ? largest(by(at.x)) / angle : 0.0;
+  };
+  return std::max(spread_of([](const DualVec3& a) { return derivative_by_x(a); }),
+                  spread_of([](const DualVec3& a) { return derivative_by_y(a); }));
 }
 
 bool is_finite(double a) {
@@ -35,24 +46,40 @@ bool is_finite(const Vector<N>& a) {
 template <class N>
 GeodesicFlight<N>::GeodesicFlight(const GeodesicScene& scene, const Vector<N>& start,
                                   const Vector<N>& direction)
-    : scene_(scene), launch_{start, direction, 0.0} {
+    : scene_(scene), tolerance_root_(eighth_root(scene.tolerance)), launch_{start, direction, 0.0} {
   ray_.hits.resize(scene.balls.size());
   launch_.excess = medium_at(scene.masses, start).excess;
   at_ = first_point(scene.masses, launch_);
-  h_ = kFirstStep * at_.medium.nearest / value_of(1.0 + launch_.excess);
-  flies_ = at_.medium.sum < 1.0;
-  ray_.captured = !flies_;
-  if (flies_ && is_far()) arrive();
+  h_ = kFirstStep / (std::sqrt(at_.medium.closeness2) * value_of(1.0 + launch_.excess));
+  if (!(at_.medium.sum < 1.0)) {
+    end_captured();
+  } else if (heading() == Heading::Away && is_far()) {
+    arrive();
+  }
 }
 
 template <class N>
-bool GeodesicFlight<N>::falls_in() const {
-  for (const PointMass& mass : scene_.masses) {
-    const Vec3 r = value_of(at_.x) - mass.position;
-    const double photon = kPhotonSphere * mass.m;
-    if (r.dot(value_of(at_.p)) < 0.0 && r.dot(r) < photon * photon) return true;
+bool GeodesicFlight<N>::hides_ball(const PointMass& mass) const {
+  if (at_.medium.sum > kDeepestBall) return false;
+  for (std::size_t i = 0; i < scene_.balls.size(); ++i) {
+    const double gap = (scene_.balls[i].centre - mass.position).length() - scene_.balls[i].radius;
+    if (!ray_.hits[i].hit && gap < kPhotonSphere * mass.m) return true;
   }
   return false;
+}
+
+template <class N>
+typename GeodesicFlight<N>::Heading GeodesicFlight<N>::heading() const {
+  const Vec3 x = value_of(at_.x), p = value_of(at_.p);
+  Heading heading = Heading::Away;
+  for (const PointMass& mass : scene_.masses) {
+    const Vec3 r = x - mass.position;
+    if (r.dot(p) > 0.0) continue;
+    const double photon = kPhotonSphere * mass.m;
+    if (r.dot(r) < photon * photon && !hides_ball(mass)) return Heading::Captured;
+    heading = Heading::Towards;
+  }
+  return heading;
 }
 
 template <class N>
@@ -70,18 +97,18 @@ bool GeodesicFlight<N>::may_meet_balls(double bend) const {
 
 template <class N>
 bool GeodesicFlight<N>::is_far() const {
-  const Vec3 x = value_of(at_.x), p = value_of(at_.p);
-  for (const PointMass& mass : scene_.masses) {
-    if (!((x - mass.position).dot(p) > 0.0)) return false;
-  }
-  const Vec3 d = p.normalized();
-  double bend = 0.0;
+  const Vec3 x = value_of(at_.x), d = value_of(at_.p).normalized();
+  double bend = 0.0, slope = 0.0;  // of what is to come, and its derivative by x
   for (const PointMass& mass : scene_.masses) {
     const Vec3 r = x - mass.position;
     const double distance = r.length(), z = r.dot(d);
-    bend += 2.0 * mass.m * (r - d * z).length() / (distance * (distance + z));
+    const double per_metre = 2.0 * mass.m / (distance * (distance + z));
+    bend += per_metre * (r - d * z).length();
+    slope += per_metre;
   }
-  return 2.0 * at_.medium.sum * bend < scene_.tolerance && !may_meet_balls(bend);
+  // What the first order leaves out is S times as large.
+  const double rest = 2.0 * at_.medium.sum * (bend + slope * spread(launch_, at_));
+  return rest < scene_.tolerance && !may_meet_balls(bend);
 }
 
 template <class N>
@@ -120,37 +147,44 @@ void GeodesicFlight<N>::arrive() {
   const N lag = 0.5 * turn.dot(turn);  // 1 - cos
   const N behind = lag - launch_.excess * (1.0 - lag);
   ray_.delay = at_.t * behind + (at_.time - at_.xi.dot(ray_.direction)) + rest.delay;
-  if (is_finite(ray_.direction) && is_finite(ray_.position) && is_finite(ray_.delay)) return;
+  if (!(is_finite(ray_.direction) && is_finite(ray_.position) && is_finite(ray_.delay))) end_captured();
+}
+
+template <class N>
+void GeodesicFlight<N>::end_captured() {
+  flies_ = false;
   ray_ = {.captured = true, .hits = std::move(ray_.hits)};
 }
 
 template <class N>
-void GeodesicFlight<N>::go_on(const RayStep<N>& step) {
-  flies_ = ++steps_ < kMaxGeodesicSteps;
-  ray_.captured = !flies_;
-  const double ratio = step.error / scene_.tolerance;
-  const double factor =
-      std::isfinite(ratio) ? std::clamp(kCaution * step_factor(ratio), kSlowest, kFastest) : kSlowest;
-  if (!(ratio < 1.0 && step.largest_sum < 1.0)) {
-    h_ *= std::min(factor, kCaution);
-    return;
-  }
+void GeodesicFlight<N>::meet_balls(const RayStep<N>& step) {
   for (std::size_t i = 0; i < scene_.balls.size(); ++i) {
     const Ball& ball = scene_.balls[i];
     if (ray_.hits[i].hit || !may_enter(ball, at_, h_, step)) continue;
     const auto entry = find_entry(scene_.masses, launch_, at_, h_, step, ball);
     if (entry) ray_.hits[i] = hit_at(launch_, *entry, ball);
   }
-  const Medium<N>& medium = step.end.medium;
-  h_ = std::min(h_ * factor * std::min(kReceding, medium.nearest / at_.medium.nearest),
-                kLongestStep * medium.nearest / value_of(1.0 + medium.excess));
-  at_ = step.end;
-  if (falls_in()) {
-    flies_ = false;
-    ray_.captured = true;
-  } else if (flies_ && is_far()) {
-    arrive();
+}
+
+template <class N>
+void GeodesicFlight<N>::go_on(const RayStep<N>& step) {
+  if (++steps_ == kMaxGeodesicSteps) return end_captured();
+  const double wish = kCaution * tolerance_root_ / step.error_root;  // a NaN on a mass
+  const double factor = wish > kSlowest ? std::min(wish, kFastest) : kSlowest;
+  if (!(step.error_root < tolerance_root_ && step.largest_sum < 1.0)) {
+    h_ *= std::min(factor, kCaution);
+    return;
   }
+  meet_balls(step);
+  const Medium<N>& medium = step.end.medium;
+  const double nearest = 1.0 / std::sqrt(medium.closeness2);
+  const double change = nearest * std::sqrt(at_.medium.closeness2);
+  h_ = std::min(h_ * factor * std::min(kReceding, change),
+                kLongestStep * nearest / value_of(1.0 + medium.excess));
+  at_ = step.end;
+  const Heading heading = this->heading();
+  if (heading == Heading::Captured) return end_captured();
+  if (heading == Heading::Away && is_far()) arrive();
 }
 
 template class GeodesicFlight<double>;

@@ -43,13 +43,18 @@ class GeodesicFlight {
   const GeodesicRay<N>& ray() const { return ray_; }
 
  private:
-  bool falls_in() const;
+  enum class Heading { Towards, Away, Captured };  // towards any mass, away from all
+  Heading heading() const;
+  bool hides_ball(const PointMass& mass) const;  // not yet met, inside the photon sphere
   bool may_meet_balls(double bend) const;
   bool is_far() const;
   Outlook<N> outlook(const Vector<N>& direction) const;
+  void meet_balls(const RayStep<N>& step);
   void arrive();
+  void end_captured();
 
   GeodesicScene scene_;
+  double tolerance_root_;
   Launch<N> launch_;
   RayPoint<N> at_;
   double h_ = 0.0;

@@ -49,15 +49,15 @@ RayPoint<N> first_point(std::span<const PointMass> masses, const Launch<N>& laun
 template <class N>
 struct RayStep {
   RayPoint<N> end;
-  double error;          // radians; of derivatives, the relative error
+  double error_root;     // error^(1/8); radians, of derivatives the relative error
   double largest_force;  // of all stages, per metre
   double largest_sum;    // of all stages: S
 };
 
 /// Where stage `i` of a step stands, given its sum of a_ij f_j.
 template <class N>
-Vector<N> stage_position(const RayPoint<N>& from, double h, int i, const Vector<N>& bend) {
-  return from.x + (times(from.p, kNystromNodes[i] * h) + times(bend, h * h));
+Vector<N> stage_position(const Vector<N>& x, const Vector<N>& p, double h, int i, const Vector<N>& bend) {
+  return x + (times(p, kNystromNodes[i] * h) + times(bend, h * h));
 }
 
 /// What a step adds up over its stages.
@@ -87,24 +87,36 @@ void add_stage(int i, const Vector<N>& force, const N& excess, double sum, Stage
 /// The error of order 8 of a step, from the estimate `error6` of that of order 6 and the whole `bend` of the
 /// step: an order that gains the factor q multiplies the error by q each time.
 inline double eighth_order(double error6, double bend) {
-  return error6 > 0.0 ? error6 * std::sqrt(std::sqrt(error6 / bend)) : 0.0;
+  return error6 == 0.0 ? 0.0 : error6 * std::sqrt(std::sqrt(error6 / bend));  // a NaN stays one
 }
 
-/// Errors of positions count as the angle at which they are seen from the nearest mass.
-inline double derivative_error(const RayPoint<double>&, const StageSums<double>&, double, double) {
+/// The relative error of one derivative of a step, given the same derivative of whatever it depends on.
+inline double derivative_error(const Vec3& p0, const Vec3& x, const Vec3& p, const Vec3& impulse,
+                               const Vec3& error_x, const Vec3& error_p, double h, double closeness) {
+  const double size_p = largest(p0) + largest(p);
+  const double size_x = largest(x) * closeness + size_p;  // per distance from the nearest mass
+  if (size_p == 0.0) return 0.0;
+  const double error6 = h * (largest(error_p) / size_p + h * closeness * largest(error_x) / size_x);
+  return eighth_order(error6, h * largest(impulse) / size_p + error6);
+}
+inline double derivatives_error(const Launch<double>&, const RayPoint<double>&, const StageSums<double>&,
+                                double, double) {
   return 0.0;
 }
-inline double derivative_error(const RayPoint<Dual>& from, const StageSums<Dual>& sums, double h,
-                               double nearest) {
-  double error = 0.0;
-  for (const auto derivative : {derivative_by_x, derivative_by_y}) {
-    const double size = largest(derivative(from.p)) + largest(derivative(from.x)) / nearest;
-    const double error6 =
-        h * (largest(derivative(sums.error_p)) + h / nearest * largest(derivative(sums.error_x)));
-    const double bend = h * largest(derivative(sums.impulse)) + error6;
-    if (size > 0.0) error = std::max(error, eighth_order(error6, bend) / size);
-  }
-  return error;
+inline double derivatives_error(const Launch<Dual>& launch, const RayPoint<Dual>& from,
+                                const StageSums<Dual>& sums, double h, double closeness) {
+  const auto error_of = [&](auto by) {
+    return derivative_error(by(launch.momentum()), by(from.x), by(from.p), by(sums.impulse), by(sums.error_x),
+                            by(sums.error_p), h, closeness);
+  };
+  return std::max(error_of([](const DualVec3& a) { return derivative_by_x(a); }),
+                  error_of([](const DualVec3& a) { return derivative_by_y(a); }));
+}
+
+/// error^(1/8), by which a step of order 8 should have been shorter. Roots are the same on every machine;
+/// std::pow is not.
+inline double eighth_root(double error) {
+  return std::sqrt(std::sqrt(std::sqrt(error)));
 }
 
 /// The step of length `h` that these sums make, up to the medium at its end.
@@ -121,10 +133,11 @@ RayStep<N> step_of(const Launch<N>& launch, const RayPoint<N>& from, double h, c
   end.p = launch.momentum() + end.pi;
   end.x = launch.start + (times(launch.momentum(), end.t) + end.xi);
   end.medium = medium;
-  const double nearest = std::min(from.medium.nearest, medium.nearest);
-  const double error6 = h * (largest(value_of(sums.error_p)) + h / nearest * largest(value_of(sums.error_x)));
-  step.error =
-      std::max(eighth_order(error6, h * sums.largest_force), derivative_error(from, sums, h, nearest));
+  const double closeness = std::sqrt(std::max(from.medium.closeness2, medium.closeness2));
+  const double error6 =
+      h * (largest(value_of(sums.error_p)) + h * closeness * largest(value_of(sums.error_x)));
+  const double error = eighth_order(error6, h * sums.largest_force);
+  step.error_root = eighth_root(std::max(error, derivatives_error(launch, from, sums, h, closeness)));
   step.largest_force = sums.largest_force;
   step.largest_sum = sums.largest_sum;
   return step;
@@ -141,7 +154,7 @@ RayStep<N> take_step(std::span<const PointMass> masses, const Launch<N>& launch,
     Vector<N> bend(N(0.0));
 #pragma GCC unroll 8
     for (int j = 0; j < i; ++j) bend += times(stages[j].force, kNystromMatrix[i][j]);
-    stages[i] = medium_at(masses, stage_position(from, h, i, bend));
+    stages[i] = medium_at(masses, stage_position(from.x, from.p, h, i, bend));
   }
   StageSums<N> sums;
 #pragma GCC unroll 9

@@ -71,6 +71,9 @@ struct Plan {
   double bound_px = 0;              // all that is left out, at most
 };
 
+/// Rounding, in pixels, comes on top of all bounds.
+inline constexpr double kRoundingPx = 1e-8;
+
 /// By `geodesic` the direction of a ray is followed to this share of the tolerance.
 inline constexpr double kGeodesicShare = 0.1;
 

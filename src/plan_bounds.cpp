@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/constants.h"
 #include "src/planes_march.h"
 #include "src/surfaces.h"
 
@@ -28,10 +29,23 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return 2.0 * std::atan2(length(a - b), length(a + b));
 }
 
+/// A rectangle of the film, in pixels.
+struct FilmTile {
+  double left, top, width, height;
+};
+
+FilmTile film_tile(const Camera& camera, const TileLevels& tiles, int index) {
+  const int left = index % tiles.columns * tiles.size;
+  const int top = index / tiles.columns * tiles.size;
+  return {static_cast<double>(left - camera.overscan), static_cast<double>(top - camera.overscan),
+          static_cast<double>(std::min(tiles.size, camera.full_width() - left)),
+          static_cast<double>(std::min(tiles.size, camera.full_height() - top))};
+}
+
 /// The bundle of a tile. Between its corners and the middles of its edges the film may bulge: a tenth more.
-Bundle bundle_of(const Camera& camera, double left, double top, double size) {
+Bundle bundle_of(const Camera& camera, const FilmTile& tile) {
   const auto direction = [&](double x, double y) {
-    return direction_from_film<double>(camera, {left + x * size, top + y * size});
+    return direction_from_film<double>(camera, {tile.left + x * tile.width, tile.top + y * tile.height});
   };
   Bundle bundle{direction(0.5, 0.5), 0.0};
   for (const double x : {0.0, 0.5, 1.0}) {
@@ -46,7 +60,8 @@ Bundle bundle_of(const Camera& camera, double left, double top, double size) {
 struct Pass {
   const Deflector* deflector;
   double least_b, most_b;
-  double growth;  // of the bend per metre across, at most
+  double growth;      // of the bend per metre across, at most
+  bool may_lie_back;  // some rays may leave the camera at more than a right angle from it
 };
 
 /// One plane as a bundle passes it.
@@ -103,7 +118,8 @@ Passes pass_all(const Deflectors& everything, const Bundle& bundle, double unsee
       more_spread += std::min(growth * aside, 2.0 * most.alpha);
       passed.growth += growth;
       lenses[deflector.lens].wild = lenses[deflector.lens].wild || growth * along > kWildGrowth;
-      result.masses.push_back({&deflector, least, b + aside, growth});
+      const double off = angle_between(segment.direction, deflector.position / length(deflector.position));
+      result.masses.push_back({&deflector, least, b + aside, growth, off + spread > kPi / 2.0});
     }
     passed.end = result.masses.size();
     result.wild = result.wild || passed.growth * passed.way > kWildGrowth;
@@ -140,7 +156,11 @@ FiniteBound finite_bound(const Pass& pass) {
   const double cosine = std::sqrt(std::max(0.0, 1.0 - (b / r) * (b / r)));
   const double h = 0.25 * (1.0 + cosine) * (1.0 + cosine) * (2.0 - cosine);
   const double excess = exact_law(m, pass.least_b).alpha - 4.0 * m / pass.least_b;
-  return {2.0 * m * b / (r * r) + excess * (1.0 - h) + (n - 1.0) * b * pass.growth, (n - 1.0) * b};
+  // (2 m/b)(1 - cos R) = 2 m b/(r^2 (1 + cos R)); a mass in front of the screen, but not ahead of the ray,
+  // bends it in full without finite distance, hardly with it.
+  const bool in_full = pass.may_lie_back && pass.deflector->position.z < 0.0;
+  const double weak = in_full ? 4.0 * m / pass.least_b : 2.0 * m * b / (r * r);
+  return {weak + excess * (in_full ? 1.0 : 1.0 - h) + (n - 1.0) * b * pass.growth, (n - 1.0) * b};
 }
 
 /// What the finite distance of spheres changes, as an angle at the camera.
@@ -248,9 +268,7 @@ FilmBounds bounds_of(const Scene& scene, const Deflectors& everything, const Til
   tbb::parallel_for(tbb::blocked_range<int>(0, count), [&](const tbb::blocked_range<int>& range) {
     std::vector<LensBound>& lenses = found.local();
     for (int i = range.begin(); i != range.end(); ++i) {
-      const double left = (i % tiles.columns) * tiles.size - scene.camera.overscan;
-      const double top = (i / tiles.columns) * tiles.size - scene.camera.overscan;
-      const Bundle bundle = bundle_of(scene.camera, left, top, tiles.size);
+      const Bundle bundle = bundle_of(scene.camera, film_tile(scene.camera, tiles, i));
       result.tiles[static_cast<std::size_t>(i)] = bound_tile(stage, everything, bundle, lenses);
     }
   });

@@ -40,9 +40,9 @@ struct PlaneSums {
   Number arc = 0.0;                                    // sum of alpha b
 };
 
-/// The ray after the plane: its direction turned by the sum of the angles, its foot points about their masses.
-/// For one deflector this is the rotation about it, exactly. It goes on from where it was, not from its turned
-/// foot point, so that nothing between the two is passed over.
+/// The ray after the plane: its direction turned by the sum of the angles, its foot points about their
+/// masses. For one deflector this is the rotation about it, exactly. It goes on from where it was, not from
+/// its turned foot point, so that nothing between the two is passed over.
 template <class Number>
 Turning<Number> turned(const Number& ahead, const Vector<Number>& reference, const Vector<Number>& direction,
                        const PlaneSums<Number>& sums) {
@@ -51,9 +51,7 @@ Turning<Number> turned(const Number& ahead, const Vector<Number>& reference, con
   // The same rotation applied to `inward`, which is perpendicular to `direction`.
   const Vector<Number> rotated =
       inward - (sums.bend * r.versine + direction * r.sine) * inward.dot(sums.bend);
-  return {ahead,
-          {reference - rotated, direction * r.cosine + sums.bend * r.sine},
-          sums.arc * (1.0 - r.sine)};
+  return {ahead, {reference - rotated, direction * r.cosine + sums.bend * r.sine}, sums.arc * (1.0 - r.sine)};
 }
 
 /// Where the ray that ends `path` goes on behind a plane; nothing when it is captured there.

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Captured rays end here; what they met before stays.
-void end_captured(const BatchArray& captured, int bends, SurfaceBatch& surface) {
+/// Captured rays end here. A body that they met before stays; at infinity they see nothing.
+void end_captured(const BatchArray& captured, bool at_infinity, int bends, SurfaceBatch& surface) {
   for (int i = 0; i < kBatchSize; ++i) {
-    if (captured[i] == 0.0 || surface.outcome[i] == Outcome::Hit) continue;
+    if (captured[i] == 0.0 || (!at_infinity && surface.outcome[i] == Outcome::Hit)) continue;
     surface.s[i] = surface.t[i] = 0.0;
     surface.outcome[i] = Outcome::Captured;
     if (!surface.passes) continue;
@@ -60,7 +60,7 @@ void see_at_infinity(const Sight& sight, const Surface& surface, const LineBatch
     }
   }
   if (result.passes) fill_along(sight, rays, bends, *result.passes);
-  end_captured(rays.captured, bends, result);
+  end_captured(rays.captured, true, bends, result);
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ void see_infinity(const Sight& sight, const LineBatch<Number>& rays, int bends, 
         set(sight, miss, i, surface);
       }
     }
-    end_captured(rays.captured, bends, surface);
+    end_captured(rays.captured, false, bends, surface);
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <type_traits>
 
-#include "src/geodesic.h"
+#include "src/geodesic_batch.h"
 #include "src/march.h"
 #include "src/planes_march.h"
 
@@ -24,19 +24,28 @@ SurfaceHit<Number> hit_of_ball(const Sphere& sphere, const Vector<Number>& first
   return hit;
 }
 
-template <class Number>
-std::vector<SurfaceHit<Number>> trace_curved(const Sight& sight, const Plan& plan, FilmPosition film) {
+/// The masses and balls of the scene as curved rays meet them.
+struct CurvedScene {
   std::vector<PointMass> masses;
-  for (const LensPlane& plane : plan.planes) {
-    for (const Source& source : plane.sources) masses.push_back({source.m, source.position});
-  }
   std::vector<Ball> balls;
-  for (const Surface& surface : sight.surfaces) {
-    if (const auto* sphere = std::get_if<Sphere>(&surface)) balls.push_back({sphere->centre, sphere->radius});
+};
+
+CurvedScene curved_scene(const Sight& sight, const Plan& plan) {
+  CurvedScene scene;
+  for (const LensPlane& plane : plan.planes) {
+    for (const Source& source : plane.sources) scene.masses.push_back({source.m, source.position});
   }
-  const auto first = direction_from_film<Number>(sight.camera, film);
-  const Vector<Number> camera(Number(0.0), Number(0.0), Number(0.0));
-  const auto ray = trace_geodesic<Number>(masses, camera, first, plan.geodesic_tolerance, balls);
+  for (const Surface& surface : sight.surfaces) {
+    if (const auto* sphere = std::get_if<Sphere>(&surface)) {
+      scene.balls.push_back({sphere->centre, sphere->radius});
+    }
+  }
+  return scene;
+}
+
+template <class Number>
+std::vector<SurfaceHit<Number>> hits_of(const Sight& sight, FilmPosition film, const Vector<Number>& first,
+                                        const GeodesicRay<Number>& ray) {
   std::vector<SurfaceHit<Number>> hits;
   auto ball = ray.hits.begin();
   for (const Surface& surface : sight.surfaces) {
@@ -64,9 +73,25 @@ RayPath<Number> path_of_ray(const Camera& camera, const Plan& plan, std::size_t 
 }
 
 template <class Number>
+std::vector<std::vector<SurfaceHit<Number>>> trace_curved_rays(const Sight& sight, const Plan& plan,
+                                                               std::span<const FilmPosition> films) {
+  const CurvedScene scene = curved_scene(sight, plan);
+  std::vector<Vector<Number>> first;
+  for (const FilmPosition film : films) first.push_back(direction_from_film<Number>(sight.camera, film));
+  const Vector<Number> camera(Number(0.0), Number(0.0), Number(0.0));
+  const auto rays =
+      trace_geodesics<Number>(scene.masses, camera, first, plan.geodesic_tolerance, scene.balls);
+  std::vector<std::vector<SurfaceHit<Number>>> hits;
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    hits.push_back(hits_of(sight, films[i], first[i], rays[i]));
+  }
+  return hits;
+}
+
+template <class Number>
 std::vector<SurfaceHit<Number>> trace_ray(const Sight& sight, const Plan& plan, std::size_t recipe,
                                           FilmPosition film) {
-  if (plan.method == Method::Geodesic) return trace_curved<Number>(sight, plan, film);
+  if (plan.method == Method::Geodesic) return trace_curved_rays<Number>(sight, plan, {&film, 1}).front();
   const RayPath<Number> path = path_of_ray<Number>(sight.camera, plan, recipe, film);
   const bool finite = plan.method == Method::Planes && plan.recipes[recipe].finite_distance;
   std::vector<SurfaceHit<Number>> hits;
@@ -78,6 +103,10 @@ std::vector<SurfaceHit<Number>> trace_ray(const Sight& sight, const Plan& plan, 
 
 template RayPath<double> path_of_ray(const Camera&, const Plan&, std::size_t, FilmPosition);
 template RayPath<Dual> path_of_ray(const Camera&, const Plan&, std::size_t, FilmPosition);
+template std::vector<std::vector<SurfaceHit<double>>> trace_curved_rays(const Sight&, const Plan&,
+                                                                        std::span<const FilmPosition>);
+template std::vector<std::vector<SurfaceHit<Dual>>> trace_curved_rays(const Sight&, const Plan&,
+                                                                      std::span<const FilmPosition>);
 template std::vector<SurfaceHit<double>> trace_ray(const Sight&, const Plan&, std::size_t, FilmPosition);
 template std::vector<SurfaceHit<Dual>> trace_ray(const Sight&, const Plan&, std::size_t, FilmPosition);
 

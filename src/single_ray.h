@@ -5,6 +5,9 @@
 
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "src/plan.h"
 #include "src/sight.h"
 
@@ -15,6 +18,11 @@ namespace lensplane {
 template <class Number>
 std::vector<SurfaceHit<Number>> trace_ray(const Sight& sight, const Plan& plan, std::size_t recipe,
                                           FilmPosition film);
+
+/// The same by `geodesic` for many rays at once.
+template <class Number>
+std::vector<std::vector<SurfaceHit<Number>>> trace_curved_rays(const Sight& sight, const Plan& plan,
+                                                               std::span<const FilmPosition> films);
 
 /// The ray's path by the plane methods.
 template <class Number>

@@ -3,6 +3,7 @@
 #include "src/tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -71,6 +72,10 @@ void march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
   if (spheres) see_spheres(sight, no_end(), static_cast<int>(count), rays, batch);
   see_infinity(sight, rays, static_cast<int>(count), batch);
   std::copy_n(rays.irregular, kBatchSize, irregular);
+  // A batch does not keep how far a captured ray came.
+  for (int i = 0; (sight.effects.direction || sight.effects.bends) && i < kBatchSize; ++i) {
+    irregular[i] = rays.captured[i] != 0.0 ? 1.0 : irregular[i];
+  }
 }
 
 }  // namespace
@@ -98,6 +103,8 @@ void Tracer::trace(TraceBatch& batch) const {
     trace_by_planes(batch);
   } else if (paper && flat && !plan_.effects.derivatives() && !plan_.effects.delay) {
     trace_by_paper(batch);
+  } else if (plan_.method == Method::Geodesic) {
+    plan_.effects.derivatives() ? trace_curved<Dual>(batch) : trace_curved<double>(batch);
   } else {
     for (int i = 0; i < kBatchSize; ++i) trace_singly(0, i, batch);
   }
@@ -166,6 +173,18 @@ void Tracer::trace_by_paper(TraceBatch& batch) const {
   see_infinity(view, rays, bends, batch);
   for (int i = 0; i < kBatchSize; ++i) {
     if (rays.irregular[i] != 0.0) trace_singly(0, i, batch);
+  }
+}
+
+template <class Number>
+void Tracer::trace_curved(TraceBatch& batch) const {
+  std::array<FilmPosition, kBatchSize> films;
+  for (std::size_t i = 0; i < kBatchSize; ++i) films[i] = {batch.x[i], batch.y[i]};
+  const Sight view = sight();
+  const auto hits = trace_curved_rays<Number>(view, plan_, films);
+  for (int i = 0; i < kBatchSize; ++i) {
+    const auto& of_ray = hits[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < of_ray.size(); ++k) set(view, of_ray[k], i, batch.surfaces[k]);
   }
 }
 

@@ -34,6 +34,8 @@ class Tracer {
   void trace_by_planes(TraceBatch& batch) const;
   void trace_by_recipe(std::size_t recipe, Reach reach, TraceBatch& batch) const;
   void trace_by_paper(TraceBatch& batch) const;
+  template <class Number>
+  void trace_curved(TraceBatch& batch) const;
   void trace_singly(std::size_t recipe, int i, TraceBatch& batch) const;
 
   Camera camera_;

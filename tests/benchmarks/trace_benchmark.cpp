@@ -7,6 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "src/constants.h"
+#include "src/march.h"
 #include "src/tracer.h"
 
 namespace lensplane {
@@ -16,12 +17,9 @@ namespace {
 /// Earth.
 Scene three_sources(const Surface& surface) {
   Scene scene;
-  scene.camera = {.width = 3840,
-                  .height = 2160,
-                  .overscan = 0,
-                  .fov_rad = 3.0 * kPi / 180.0,
-                  .position = Vec3(0),
-                  .axes = {}};
+  scene.camera.width = 3840;
+  scene.camera.height = 2160;
+  scene.camera.fov_rad = 3.0 * kPi / 180.0;
   const double m = geometric_mass_from_kg(1.989e31);
   const double side = 5.95e6;
   scene.lenses = {{m, {-side, -0.5 * side, -0.4 * 1.09e9}},
@@ -76,7 +74,7 @@ void plate_by_scalar_march(benchmark::State& state) {
     for (int row = 0; row < scene.camera.height; row += 16) {
       for (int column = 0; column < scene.camera.width; column += 16) {
         const FilmPosition film{column + 0.5, row + 0.5};
-        const RayPath path = march(plan.planes, Vec3(0), direction_from_pixel(scene.camera, film));
+        const RayPath<double> path = march(plan.planes, Vec3(0), direction_from_pixel(scene.camera, film));
         benchmark::DoNotOptimize(meet(scene.surfaces.front(), scene.camera, film, path));
         ++rays;
       }

@@ -23,9 +23,9 @@ TEST(LensPlanes, StandInTheOrderOfTheirDepth) {
   const auto planes = lens_planes(scene_with({{3, {0, 0, -30}}, {1, {0, 0, -10}}, {2, {0, 0, -20}}}),
                                   Method::ShinotsukaMakino);
   ASSERT_EQ(planes.size(), 3U);
-  EXPECT_EQ(planes[0].z, -10);
-  EXPECT_EQ(planes[1].z, -20);
-  EXPECT_EQ(planes[2].z, -30);
+  EXPECT_EQ(planes[0].distance, 10);
+  EXPECT_EQ(planes[1].distance, 20);
+  EXPECT_EQ(planes[2].distance, 30);
   EXPECT_EQ(planes[1].sources[0].m, 2);
 }
 
@@ -35,8 +35,8 @@ TEST(LensPlanes, SourcesAtOneDepthShareAPlaneInFileOrder) {
   ASSERT_EQ(planes.size(), 2U);
   ASSERT_EQ(planes[0].sources.size(), 2U);
   EXPECT_EQ(planes[0].sources[0].m, 1);
-  EXPECT_EQ(planes[0].sources[0].x, 5);
-  EXPECT_EQ(planes[0].sources[1].y, 6);
+  EXPECT_EQ(planes[0].sources[0].position.x, 5);
+  EXPECT_EQ(planes[0].sources[1].position.y, 6);
 }
 
 TEST(LensPlanes, OneDepthIsOnePlaneForATurnedCamera) {
@@ -49,8 +49,8 @@ TEST(LensPlanes, OneDepthIsOnePlaneForATurnedCamera) {
   }
   const auto planes = lens_planes(scene, Method::ShinotsukaMakino);
   ASSERT_EQ(planes.size(), 1U);
-  EXPECT_NEAR(planes[0].sources[1].x, -3e7, 1e-4);
-  EXPECT_NEAR(planes[0].z, -1e9, 1e-4);
+  EXPECT_NEAR(planes[0].sources[1].position.x, -3e7, 1e-4);
+  EXPECT_NEAR(planes[0].distance, 1e9, 1e-4);
 }
 
 TEST(LensPlanes, DepthsThatDifferStayApart) {
@@ -68,16 +68,16 @@ TEST(LensPlanes, KishiPutsAllSourcesOnTheMassWeightedMeanDepth) {
   const auto planes =
       lens_planes(scene_with({{1, {5, 1, -10}}, {3, {7, 2, -20}}, {4, {9, 3, -40}}}), Method::Kishi);
   ASSERT_EQ(planes.size(), 1U);
-  EXPECT_DOUBLE_EQ(planes[0].z, -(1 * 10 + 3 * 20 + 4 * 40) / 8.0);
+  EXPECT_DOUBLE_EQ(planes[0].distance, (1 * 10 + 3 * 20 + 4 * 40) / 8.0);
   ASSERT_EQ(planes[0].sources.size(), 3U);
-  EXPECT_EQ(planes[0].sources[1].x, 7);
+  EXPECT_EQ(planes[0].sources[1].position.x, 7);
 }
 
 TEST(LensPlanes, KishiLeavesOutSourcesBesideAndBehindTheCamera) {
   const auto planes =
       lens_planes(scene_with({{1, {0, 0, 50}}, {1, {3, 0, 0}}, {2, {0, 0, -10}}}), Method::Kishi);
   ASSERT_EQ(planes.size(), 1U);
-  EXPECT_EQ(planes[0].z, -10);
+  EXPECT_EQ(planes[0].distance, 10);
   EXPECT_EQ(planes[0].sources.size(), 1U);
 }
 
@@ -85,7 +85,7 @@ TEST(LensPlanes, KishiMeanDepthDoesNotOverflow) {
   const auto planes =
       lens_planes(scene_with({{1e300, {0, 0, -1e300}}, {1e300, {0, 0, -1e300}}}), Method::Kishi);
   ASSERT_EQ(planes.size(), 1U);
-  EXPECT_DOUBLE_EQ(planes[0].z, -1e300);
+  EXPECT_DOUBLE_EQ(planes[0].distance, 1e300);
 }
 
 }  // namespace

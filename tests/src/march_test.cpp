@@ -9,6 +9,7 @@
 #include <random>
 
 #include "src/constants.h"
+#include "tests/src/flat_plane.h"
 
 namespace lensplane {
 namespace {
@@ -68,7 +69,7 @@ TEST(Bend, IsThePapersEquations) {
 TEST(Bend, RotatesByAlphaTowardsTheSourceBeyondARightAngle) {
   const double pi = kPi;
   for (const double alpha : {0.6 * pi, 0.99 * pi, 1.4 * pi, 5.3 * pi}) {
-    const auto bent = bend({0, 0, -1}, {2, 0, 0}, alpha * 2 / 4);
+    const auto bent = bend<double>({0, 0, -1}, {2, 0, 0}, alpha * 2 / 4);
     ASSERT_TRUE(bent);
     EXPECT_NEAR(bent->x, std::sin(alpha), 1e-14);
     EXPECT_EQ(bent->y, 0);
@@ -77,9 +78,9 @@ TEST(Bend, RotatesByAlphaTowardsTheSourceBeyondARightAngle) {
 }
 
 TEST(Bend, OnTheSourceOrStraightAtItIsCaptured) {
-  EXPECT_FALSE(bend({0, 0, -1}, {0, 0, 0}, 1));
-  EXPECT_FALSE(bend({1, 0, 0}, {5, 0, 0}, 1));        // V_g parallel to V_ray
-  EXPECT_FALSE(bend({0, 0, -1}, {1e-310, 0, 0}, 1));  // alpha is no number any more
+  EXPECT_FALSE(bend<double>({0, 0, -1}, {0, 0, 0}, 1));
+  EXPECT_FALSE(bend<double>({1, 0, 0}, {5, 0, 0}, 1));        // V_g parallel to V_ray
+  EXPECT_FALSE(bend<double>({0, 0, -1}, {1e-310, 0, 0}, 1));  // alpha is no number any more
 }
 
 TEST(Bend, StaysFiniteFromTheSmallestToTheLargestImpactParameters) {
@@ -92,21 +93,23 @@ TEST(Bend, StaysFiniteFromTheSmallestToTheLargestImpactParameters) {
 
 /// A ray through three planes, each with two sources, all by hand.
 TEST(March, FollowsThePapersStepsThroughSeveralPlanes) {
-  const std::vector<LensPlane> planes = {{-4e8, {{15000, 3e6, 1e6}, {9000, -2e6, 5e5}}},
-                                         {-5e8, {{14000, 1e6, -4e6}, {8000, 6e6, 2e6}}},
-                                         {-6e8, {{13000, -1e6, -1e6}, {20000, 2e6, 7e6}}}};
+  const std::vector<LensPlane> planes = {flat_plane(-4e8, {{15000, 3e6, 1e6}, {9000, -2e6, 5e5}}),
+                                         flat_plane(-5e8, {{14000, 1e6, -4e6}, {8000, 6e6, 2e6}}),
+                                         flat_plane(-6e8, {{13000, -1e6, -1e6}, {20000, 2e6, 7e6}})};
   std::mt19937 random(7);
   std::uniform_real_distribution<double> slope(-0.02, 0.02);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 direction = Vec3(slope(random), slope(random), -1).normalized();
-    const RayPath path = march(planes, Vec3(0), direction);
+    const RayPath<double> path = march(planes, Vec3(0), direction);
     ASSERT_EQ(path.segments.size(), 4U);
     EXPECT_FALSE(path.captured);
 
     Vec3l position{0, 0, 0}, ray = unit({direction.x, direction.y, direction.z});
     for (const LensPlane& plane : planes) {
-      position = plus(position, times(ray, (plane.z - position[2]) / ray[2]));
-      for (const Source& s : plane.sources) ray = bend_by_hand(ray, {s.x, s.y, plane.z}, position, s.m);
+      position = plus(position, times(ray, (-plane.distance - position[2]) / ray[2]));
+      for (const Source& s : plane.sources) {
+        ray = bend_by_hand(ray, {s.position.x, s.position.y, s.position.z}, position, s.m);
+      }
     }
     expect_same_direction(path.segments.back().direction, ray, 1e-14);
     EXPECT_NEAR(path.segments.back().start.x, static_cast<double>(position[0]), 1e-6);
@@ -116,11 +119,11 @@ TEST(March, FollowsThePapersStepsThroughSeveralPlanes) {
 }
 
 TEST(March, SegmentsJoinUp) {
-  const std::vector<LensPlane> planes = {{-10, {{0.01, 1, 0}}}, {-20, {{0.01, 0, 1}}}};
-  const RayPath path = march(planes, Vec3(0), Vec3(0.05, 0, -1).normalized());
+  const std::vector<LensPlane> planes = {flat_plane(-10, {{0.01, 1, 0}}), flat_plane(-20, {{0.01, 0, 1}})};
+  const RayPath<double> path = march(planes, Vec3(0), Vec3(0.05, 0, -1).normalized());
   ASSERT_EQ(path.segments.size(), 3U);
   for (std::size_t k = 0; k + 1 < path.segments.size(); ++k) {
-    const RaySegment& segment = path.segments[k];
+    const RaySegment<double>& segment = path.segments[k];
     const Vec3 end = segment.start + segment.direction * segment.length;
     EXPECT_NEAR((end - path.segments[k + 1].start).length(), 0, 1e-14);
   }
@@ -128,14 +131,14 @@ TEST(March, SegmentsJoinUp) {
 }
 
 TEST(March, PlanesBesideAndBehindTheCameraDoNotBend) {
-  const std::vector<LensPlane> planes = {{5, {{1, 1, 0}}}, {0, {{1, 1, 0}}}};
-  const RayPath path = march(planes, Vec3(0), Vec3(0, 0, -1));
+  const std::vector<LensPlane> planes = {flat_plane(5, {{1, 1, 0}}), flat_plane(0, {{1, 1, 0}})};
+  const RayPath<double> path = march(planes, Vec3(0), Vec3(0, 0, -1));
   EXPECT_EQ(path.segments.size(), 1U);
   EXPECT_EQ(path.segments[0].direction, Vec3(0, 0, -1));
 }
 
 TEST(March, RayOnASourceIsCapturedThere) {
-  const RayPath path = march({{-10, {{1, 0, 0}}}}, Vec3(0), Vec3(0, 0, -1));
+  const RayPath<double> path = march({flat_plane(-10, {{1, 0, 0}})}, Vec3(0), Vec3(0, 0, -1));
   EXPECT_TRUE(path.captured);
   ASSERT_EQ(path.segments.size(), 1U);
   EXPECT_EQ(path.segments[0].length, 10);
@@ -143,8 +146,9 @@ TEST(March, RayOnASourceIsCapturedThere) {
 
 TEST(March, RayThatTurnsBackGoesOnBackwardsAndIsBentAgain) {
   // alpha = 3 rad at the far plane sends the ray back through the near one and past the camera.
-  const std::vector<LensPlane> planes = {{10, {{1e-3, 1, 0}}}, {-10, {{1e-3, 1, 0}}}, {-20, {{0.75, 1, 0}}}};
-  const RayPath path = march(planes, Vec3(0), Vec3(0, 0, -1));
+  const std::vector<LensPlane> planes = {flat_plane(10, {{1e-3, 1, 0}}), flat_plane(-10, {{1e-3, 1, 0}}),
+                                         flat_plane(-20, {{0.75, 1, 0}})};
+  const RayPath<double> path = march(planes, Vec3(0), Vec3(0, 0, -1));
   EXPECT_FALSE(path.captured);
   ASSERT_EQ(path.segments.size(), 5U);  // there: -10, -20; back: -10, 10
   EXPECT_LT(path.segments[1].direction.z, 0);
@@ -155,17 +159,18 @@ TEST(March, RayThatTurnsBackGoesOnBackwardsAndIsBentAgain) {
 }
 
 TEST(March, RayParallelToThePlanesGoesOnForEver) {
-  const RayPath path = march({{-10, {{1, 3, 0}}}}, Vec3(0), Vec3(1, 0, 0));
+  const RayPath<double> path = march({flat_plane(-10, {{1, 3, 0}})}, Vec3(0), Vec3(1, 0, 0));
   EXPECT_EQ(path.segments.size(), 1U);
-  const RayPath nearly = march({{-10, {{1, 3, 0}}}}, Vec3(0), Vec3(1, 0, -1e-310));
+  const RayPath<double> nearly = march({flat_plane(-10, {{1, 3, 0}})}, Vec3(0), Vec3(1, 0, -1e-310));
   EXPECT_EQ(nearly.segments.size(), 1U);
 }
 
 TEST(March, EndsWhenThePlanesKeepTheRay) {
   // Two mirrors: alpha = pi from a mass so far aside that the ray stays where it is.
   const double far = 1e9;
-  const std::vector<LensPlane> planes = {{10, {{kPi * far / 4, far, 0}}}, {-10, {{kPi * far / 4, far, 0}}}};
-  const RayPath path = march(planes, Vec3(0), Vec3(0, 0, -1));
+  const std::vector<LensPlane> planes = {flat_plane(10, {{kPi * far / 4, far, 0}}),
+                                         flat_plane(-10, {{kPi * far / 4, far, 0}})};
+  const RayPath<double> path = march(planes, Vec3(0), Vec3(0, 0, -1));
   EXPECT_TRUE(path.captured);
   EXPECT_EQ(path.segments.size(), static_cast<std::size_t>(kMaxCrossings) + 1);
 }

@@ -38,13 +38,18 @@ inline Scene seed_fig6(int resolution) {
 }
 
 /// What one film position of the scene sees on its first surface, by the batches.
-inline SurfaceHit trace_one(const Scene& scene, FilmPosition film, Method method = Method::ShinotsukaMakino) {
+inline SurfaceHit<double> trace_one(const Scene& scene, FilmPosition film,
+                                    Method method = Method::ShinotsukaMakino) {
   const Tracer tracer(scene, plan_trace(scene, method));
   TraceBatch batch = tracer.make_batch();
   for (int i = 0; i < kBatchSize; ++i) batch.x[i] = film.x, batch.y[i] = film.y;
   tracer.trace(batch);
   const SurfaceBatch& surface = batch.surfaces.front();
-  return {surface.outcome[0], {surface.s[0], surface.t[0]}, surface.distance[0]};
+  SurfaceHit<double> hit;
+  hit.outcome = surface.outcome[0];
+  hit.st = {surface.s[0], surface.t[0]};
+  hit.distance = surface.distance[0];
+  return hit;
 }
 
 }  // namespace lensplane

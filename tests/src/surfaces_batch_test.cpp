@@ -22,17 +22,19 @@ TEST(SurfacesBatch, EntersSpheresWhereTheReferenceDoes) {
   for (int trial = 0; trial < 200; ++trial) {
     const Vec3 centre(position(random), position(random), position(random) - 8);
     const double r = radius(random);
-    const double end_z = trial % 2 ? -10.0 : -std::numeric_limits<double>::infinity();
+    const double end_distance = trial % 2 ? 10.0 : std::numeric_limits<double>::infinity();
     Film film;
     random_film(random, camera, film);
-    const auto rays = std::make_unique<RayBatch>();
-    start_rays(camera, film.x, film.y, *rays);
+    const auto rays = std::make_unique<LineBatch<double>>();
+    start_lines(camera, film.x, film.y, *rays);
+    Ends ends;
+    end_at_plane(end_distance, *rays, ends);
     alignas(64) BatchArray entry;
-    enter_sphere(centre, r, end_z, *rays, entry);
+    enter_sphere<double>({centre, r, {}}, rays->start, rays->direction, ends, entry);
     for (int i = 0; i < kBatchSize; ++i) {
       const Vec3 direction = direction_from_pixel(camera, {film.x[i], film.y[i]});
       const double expected = sphere_entry(Vec3(0), direction, centre, r);
-      if (std::isfinite(expected) && expected <= end_z / direction.z) {
+      if (std::isfinite(expected) && expected <= end_distance / -direction.z) {
         EXPECT_NEAR(entry[i], expected, 1e-12);
         ++hits;
       } else {

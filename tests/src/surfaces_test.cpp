@@ -18,18 +18,18 @@ void expect_st(TextureCoordinates st, double s, double t) {
 }
 
 TEST(Surfaces, SkyCoordinatesAreThoseOfTheContract) {
-  expect_st(st_from_sky_direction({0, 0, -1}), 0.5, 0.5);
-  expect_st(st_from_sky_direction({1, 0, 0}), 0.75, 0.5);
-  expect_st(st_from_sky_direction({-1, 0, 0}), 0.25, 0.5);
-  EXPECT_NEAR(st_from_sky_direction({0, 1, 0}).t, 1, 1e-15);
-  EXPECT_NEAR(st_from_sky_direction({0, -1, 0}).t, 0, 1e-15);
+  expect_st(st_from_sky_direction<double>({0, 0, -1}), 0.5, 0.5);
+  expect_st(st_from_sky_direction<double>({1, 0, 0}), 0.75, 0.5);
+  expect_st(st_from_sky_direction<double>({-1, 0, 0}), 0.25, 0.5);
+  EXPECT_NEAR(st_from_sky_direction<double>({0, 1, 0}).t, 1, 1e-15);
+  EXPECT_NEAR(st_from_sky_direction<double>({0, -1, 0}).t, 0, 1e-15);
 }
 
 TEST(Surfaces, SphereCoordinatesHaveLongitudeZeroInTheMiddleAndEastToTheRight) {
-  expect_st(st_from_sphere_normal({0, 0, 1}), 0.5, 0.5);
-  expect_st(st_from_sphere_normal({1, 0, 0}), 0.75,
+  expect_st(st_from_sphere_normal<double>({0, 0, 1}), 0.5, 0.5);
+  expect_st(st_from_sphere_normal<double>({1, 0, 0}), 0.75,
             0.5);  // 90 deg east, to the right of a camera that looks along -z
-  EXPECT_NEAR(st_from_sphere_normal({0, 1, 0}).t, 1, 1e-15);
+  EXPECT_NEAR(st_from_sphere_normal<double>({0, 1, 0}).t, 1, 1e-15);
 }
 
 TEST(Surfaces, DirectionsFromCoordinatesUndoCoordinatesFromDirections) {
@@ -48,19 +48,19 @@ TEST(Surfaces, DirectionsFromCoordinatesUndoCoordinatesFromDirections) {
 
 TEST(Surfaces, RaysEnterSpheresFromOutsideOnly) {
   const Vec3 ahead(0, 0, -1);
-  EXPECT_DOUBLE_EQ(sphere_entry({0, 0, 0}, ahead, {0, 0, -10}, 2), 8);
-  EXPECT_DOUBLE_EQ(sphere_entry({0, 0, 0}, ahead, {2, 0, -10}, 2), 10);  // grazes
-  EXPECT_TRUE(std::isinf(sphere_entry({0, 0, 0}, ahead, {2.001, 0, -10}, 2)));
-  EXPECT_TRUE(std::isinf(sphere_entry({0, 0, 0}, ahead, {0, 0, 10}, 2)));  // behind
-  EXPECT_TRUE(std::isinf(sphere_entry({0, 0, 0}, ahead, {0, 0, -1}, 2)));  // from inside
-  EXPECT_NEAR(sphere_entry({0, 0, 0}, ahead, {0, 0, -2}, 2), 0, 1e-15);    // from the surface inwards
+  EXPECT_DOUBLE_EQ(sphere_entry<double>({0, 0, 0}, ahead, {0, 0, -10}, 2), 8);
+  EXPECT_DOUBLE_EQ(sphere_entry<double>({0, 0, 0}, ahead, {2, 0, -10}, 2), 10);  // grazes
+  EXPECT_TRUE(std::isinf(sphere_entry<double>({0, 0, 0}, ahead, {2.001, 0, -10}, 2)));
+  EXPECT_TRUE(std::isinf(sphere_entry<double>({0, 0, 0}, ahead, {0, 0, 10}, 2)));  // behind
+  EXPECT_TRUE(std::isinf(sphere_entry<double>({0, 0, 0}, ahead, {0, 0, -1}, 2)));  // from inside
+  EXPECT_NEAR(sphere_entry<double>({0, 0, 0}, ahead, {0, 0, -2}, 2), 0, 1e-15);    // from the surface inwards
 }
 
 TEST(Surfaces, EntryIsAccurateForASmallBallFarAway) {
   // A ball of 1 m at 1e8 m, hit 0.6 m beside its centre.
   const Vec3 direction = Vec3(0.6, 0, -1e8).normalized();
   const double expected = 1e8 * (1 + 0.5 * 0.36e-16) - 0.8;
-  EXPECT_NEAR(sphere_entry({0, 0, 0}, direction, {0, 0, -1e8}, 1), expected, 1e-7);
+  EXPECT_NEAR(sphere_entry<double>({0, 0, 0}, direction, {0, 0, -1e8}, 1), expected, 1e-7);
 }
 
 }  // namespace

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The plan keeps its word: on thousands of random scenes what it leaves out moves nothing by more than it
+// says.
+
+#include "src/plan_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "src/constants.h"
+#include "src/tracer.h"
+
+namespace lensplane {
+namespace {
+
+/// Scenes of all sizes and projections, with masses in and outside the frame, far and near, some behind the
+/// camera, some side by side.
+class RandomScenes {
+ public:
+  explicit RandomScenes(unsigned seed) : random_(seed) {}
+
+  double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
+  double spread(double from, double to) { return std::exp(uniform(std::log(from), std::log(to))); }
+
+  Scene next() {
+    Scene scene;
+    Camera& camera = scene.camera;
+    camera.width = 192;
+    camera.height = 128;
+    camera.fov_rad = spread(1e-4, 2.5);
+    const auto kind = random_() % 4;
+    if (kind == 2) camera.projection = Projection::LatLong;
+    if (kind == 3) camera.projection = Projection::Fisheye, camera.fov_rad = uniform(0.1, 2 * kPi);
+    scene.surfaces = {LatLong{}};
+    if (kind == 0) scene.surfaces.push_back(Plate{});
+    const double distance = spread(1e3, 1e20);
+    const auto count = 1 + random_() % 6;
+    for (unsigned long i = 0; i < count; ++i) add_lens(distance, scene);
+    return scene;
+  }
+
+ private:
+  void add_lens(double distance, Scene& scene) {
+    const double z = distance * spread(0.1, 10);
+    const double width = std::min(1.0, std::tan(std::min(scene.camera.fov_rad, 2.8) / 2));
+    const double m = z * spread(1e-12, 1e-3) * width;
+    Vec3 position(z * width * uniform(-2, 2), z * width * uniform(-2, 2), -z);
+    if (random_() % 8 == 0) position.z = -position.z;
+    scene.lenses.push_back({m, position});
+    if (random_() % 5 == 0) {
+      scene.lenses.push_back({m * spread(0.01, 1), position + Vec3(m * spread(10, 1e6), 0, 0)});
+    }
+  }
+
+  std::mt19937 random_;
+};
+
+/// How far apart two results are, in pixels; nothing where either is not valid.
+std::optional<double> pixels_between(const Scene& scene, std::size_t k, const SurfaceBatch& a,
+                                     const SurfaceBatch& b, int i) {
+  const auto hit = [i](const SurfaceBatch& s) {
+    return s.outcome[static_cast<std::size_t>(i)] == Outcome::Hit;
+  };
+  if (!hit(a) || !hit(b)) return std::nullopt;
+  if (std::holds_alternative<Plate>(scene.surfaces[k])) {
+    return std::hypot((a.s[i] - b.s[i]) * scene.camera.width, (a.t[i] - b.t[i]) * scene.camera.height);
+  }
+  const Vec3 apart = sky_direction_from_st({a.s[i], a.t[i]}) - sky_direction_from_st({b.s[i], b.t[i]});
+  return apart.length() / pixel_angle(scene.camera);
+}
+
+TEST(PlanBounds, WhatIsLeftOutMovesNothingByMore) {
+  RandomScenes scenes(7);
+  TraceSettings everything;
+  everything.law = Law::Exact;
+  everything.finite_distance = Choice::On;
+  int by_level[4] = {}, culled = 0, without_finite = 0;
+  double nearest = 0.0;  // error over tolerance
+  for (int n = 0; n < 3000; ++n) {
+    const Scene scene = scenes.next();
+    TraceSettings settings;
+    settings.tolerance_px = scenes.spread(1e-3, 1);
+    const Tracer planned(scene, plan_trace(scene, settings));
+    const Tracer reference(scene, plan_trace(scene, everything));
+    const Plan& plan = planned.plan();
+    ASSERT_LE(plan.bound_px, settings.tolerance_px);
+    for (const std::uint8_t level : plan.tiles.level) ++by_level[level];
+    for (const LensPlan& lens : plan.lenses) culled += lens.culled;
+    without_finite += !plan.choices.front().on;
+
+    TraceBatch a = planned.make_batch(), b = reference.make_batch();
+    for (int i = 0; i < kBatchSize; ++i) {
+      a.x[i] = b.x[i] = scenes.uniform(0, scene.camera.width);
+      a.y[i] = b.y[i] = scenes.uniform(0, scene.camera.height);
+    }
+    planned.trace(a);
+    reference.trace(b);
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+      for (int i = 0; i < kBatchSize; ++i) {
+        // Near captured light everything is simulated: both agree on who is captured.
+        ASSERT_EQ(a.surfaces[k].outcome[i] == Outcome::Captured,
+                  b.surfaces[k].outcome[i] == Outcome::Captured);
+        const auto error = pixels_between(scene, k, a.surfaces[k], b.surfaces[k], i);
+        if (!error) continue;
+        ASSERT_LE(*error, plan.bound_px + kRoundingPx)
+            << "scene " << n << " film " << a.x[i] << " " << a.y[i];
+        nearest = std::max(nearest, *error / settings.tolerance_px);
+      }
+    }
+  }
+  // Not by doing everything always: each simplification is used, and some come near what they may leave out.
+  for (const int count : by_level) EXPECT_GT(count, 50);
+  EXPECT_GT(culled, 1000);
+  EXPECT_GT(without_finite, 500);
+  EXPECT_GT(nearest, 0.05);
+}
+
+TEST(PlanBounds, WithoutLensesNothingIsLeftOut) {
+  Scene scene;
+  scene.camera.width = 100;
+  scene.camera.height = 50;
+  scene.camera.fov_rad = 1;
+  scene.surfaces = {Plate{}};
+  const Plan plan = plan_trace(scene, TraceSettings{});
+  EXPECT_EQ(plan.bound_px, 0.0);
+  for (const std::uint8_t level : plan.tiles.level) EXPECT_EQ(level, 0);
+}
+
+TEST(PlanBounds, ALensThatMovesNothingIsCulled) {
+  Scene scene;
+  scene.camera.width = 1000;
+  scene.camera.height = 500;
+  scene.camera.fov_rad = 0.1;
+  scene.surfaces = {Plate{}};
+  scene.lenses = {{1e-3, {1e6, 0, -1e7}}, {1e3, {3e5, 1e5, -2e7}}};
+  const Plan plan = plan_trace(scene, TraceSettings{});
+  EXPECT_TRUE(plan.lenses[0].culled);
+  EXPECT_GT(plan.lenses[0].moves_px, 0.0);
+  EXPECT_FALSE(plan.lenses[1].culled);
+  // By 4 m/b at the nearest that the frame comes to it, and by what the mass behind makes of that.
+  const double b = 1e6 - 1e7 * std::tan(0.05);
+  EXPECT_GE(plan.lenses[0].moves_px, 4e-3 / b / pixel_angle(scene.camera));
+  EXPECT_LE(plan.lenses[0].moves_px, 10.0 * 4e-3 / b / pixel_angle(scene.camera));
+}
+
+TEST(PlanBounds, TightensWithTheTolerance) {
+  Scene scene;
+  scene.camera.width = 640;
+  scene.camera.height = 320;
+  scene.camera.fov_rad = 0.05;
+  scene.surfaces = {Plate{}};
+  scene.lenses = {{1e4, {5e6, 0, -4e8}}, {1e4, {-6e6, 1e6, -5e8}}};
+  std::size_t before = 0;
+  for (const double tolerance : {10.0, 1.0, 1e-1, 1e-2, 1e-4}) {
+    TraceSettings settings;
+    settings.tolerance_px = tolerance;
+    const Plan plan = plan_trace(scene, settings);
+    EXPECT_LE(plan.bound_px, tolerance);
+    std::size_t work = 0;
+    for (const std::uint8_t level : plan.tiles.level) work += level;
+    EXPECT_GE(work, before) << tolerance;
+    before = work;
+  }
+  EXPECT_GT(before, 0u);
+}
+
+}  // namespace
+}  // namespace lensplane

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tracer by the method `planes`: what its batches write, against single rays.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "src/single_ray.h"
+#include "tests/src/film.h"
+#include "tests/src/scenes.h"
+
+namespace lensplane {
+namespace {
+
+/// Masses of 1 m and what they hide, some behind others and one behind the camera.
+Scene strong_scene(Projection projection) {
+  Scene scene;
+  scene.camera.width = 400;
+  scene.camera.height = 200;
+  scene.camera.fov_rad = 1.5;
+  scene.camera.projection = projection;
+  scene.camera.position = Vec3(1e3, -4e2, 7e2);
+  scene.camera.axes = basis_from_zxy({0.3, -0.8, 0.1});
+  const auto at = [&](const Vec3& p) {
+    return scene.camera.position + scene.camera.axes.parent_from_local(p);
+  };
+  scene.lenses = {{1.0, at({3, 2, -40})},
+                  {0.5, at({-12, 4, -40})},
+                  {1.0, at({14, -6, -60})},
+                  {0.2, at({-10, -9, -30})},
+                  {0.6, at({5, 5, 50})}};
+  scene.surfaces = {Plate{}, LatLong{}, Sphere{at({4, 0, -90}), 12, basis_from_zxy({0.4, 1, 0})},
+                    Sphere{at({-11, 5, -35}), 3, {}}, Sphere{at({0, 0, 60}), 15, {}}};
+  return scene;
+}
+
+/// s on a sky and on a ball jumps from 1 to 0.
+double apart_on_circle(double a, double b) {
+  const double d = std::abs(a - b);
+  return std::min(d, std::abs(1 - d));
+}
+
+struct Tally {
+  int hits = 0, captured = 0, missed = 0, behind = 0, disagreeing = 0;
+};
+
+/// Compares everything that the batch says of ray `i` with `expected`.
+void expect_same(const SurfaceBatch& ours, int i, const SurfaceHit<Dual>& expected, const Basis& axes,
+                 Tally& tally) {
+  if (ours.outcome[static_cast<std::size_t>(i)] != expected.outcome) {
+    ++tally.disagreeing;  // at a silhouette rounding decides
+    return;
+  }
+  tally.hits += expected.outcome == Outcome::Hit;
+  tally.captured += expected.outcome == Outcome::Captured;
+  tally.missed += expected.outcome == Outcome::Missed;
+  tally.behind += expected.outcome == Outcome::Behind;
+  // Derivatives say how far a rounding of the film position carries.
+  const double steep = std::abs(expected.st.s.dx) + std::abs(expected.st.s.dy) + std::abs(expected.st.t.dx) +
+                       std::abs(expected.st.t.dy);
+  const double near = 1e-11 * (1 + steep);
+  EXPECT_LT(apart_on_circle(ours.s[i], expected.st.s.v), near);
+  EXPECT_NEAR(ours.t[i], expected.st.t.v, near);
+  if (std::isfinite(expected.distance)) {
+    EXPECT_NEAR(ours.distance[i], expected.distance, 1e-8 * (1 + steep));
+  } else {
+    EXPECT_TRUE(std::isinf(ours.distance[i]));
+  }
+  const PassBatch& passes = *ours.passes;
+  const double steeper = 1e-9 * (1 + steep * steep);
+  EXPECT_NEAR(passes.ds_dx[i], expected.st.s.dx, steeper);
+  EXPECT_NEAR(passes.ds_dy[i], expected.st.s.dy, steeper);
+  EXPECT_NEAR(passes.dt_dx[i], expected.st.t.dx, steeper);
+  EXPECT_NEAR(passes.dt_dy[i], expected.st.t.dy, steeper);
+  const double mu = expected.magnification;
+  EXPECT_NEAR(passes.magnification[i], mu, 1e-9 * std::abs(mu) * (1 + std::abs(mu)) * (1 + steep));
+  EXPECT_NEAR(passes.delay[i], expected.delay / kLightSpeed, 1e-9 / kLightSpeed * (1 + steep));
+  const Vec3 direction = axes.parent_from_local(expected.direction);
+  EXPECT_NEAR((Vec3(passes.dir_x[i], passes.dir_y[i], passes.dir_z[i]) - direction).length(), 0, near);
+  EXPECT_EQ(passes.bends[i], expected.bends);
+}
+
+Tally compare(const Scene& scene, const TraceSettings& settings) {
+  const Tracer tracer(scene, plan_trace(scene, settings));
+  const Plan& plan = tracer.plan();
+  const Sight sight{tracer.camera(), tracer.surfaces(), plan.effects};
+  TraceBatch batch = tracer.make_batch();
+  std::mt19937 random(12);
+  Film film;
+  Tally tally;
+  for (int round = 0; round < 20; ++round) {
+    random_film(random, scene.camera, film);
+    std::copy_n(film.x, kBatchSize, batch.x);
+    std::copy_n(film.y, kBatchSize, batch.y);
+    tracer.trace(batch);
+    for (int i = 0; i < kBatchSize; ++i) {
+      const FilmPosition at{film.x[i], film.y[i]};
+      if (!sees(scene.camera, at)) continue;
+      const auto expected = trace_ray<Dual>(sight, plan, plan.recipes.size() - 1, at);
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        SCOPED_TRACE(testing::Message() << "surface " << k << " at " << at.x << ", " << at.y);
+        expect_same(batch.surfaces[k], i, expected[k], scene.camera.axes, tally);
+      }
+    }
+  }
+  return tally;
+}
+
+constexpr Effects kEverything{true, true, true, true, true, true, true};
+
+TEST(TracerByPlanes, BatchesWriteWhatSingleRaysSee) {
+  for (const Projection projection : {Projection::Perspective, Projection::LatLong, Projection::Fisheye}) {
+    for (const Law law : {Law::Weak, Law::SecondOrder, Law::Exact}) {
+      for (const Choice finite : {Choice::Off, Choice::On}) {
+        SCOPED_TRACE(testing::Message() << "projection " << static_cast<int>(projection) << ", "
+                                        << name_of(law) << ", finite " << (finite == Choice::On));
+        const TraceSettings settings{Method::Planes, law, 0.05, finite, kEverything};
+        const Tally tally = compare(strong_scene(projection), settings);
+        EXPECT_GT(tally.hits, 1000);
+        EXPECT_GT(tally.captured, 30);
+        EXPECT_GT(tally.missed, 1000);
+        EXPECT_LE(tally.disagreeing, 2);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lensplane
