@@ -51,8 +51,8 @@ Dual dual_at(double q) {
   return {q, 1, 2};
 }
 
-/// The first term of sin(A)/A that short_turn() leaves out, A^10/11!, is below 1e-16; its slope at the largest
-/// short turn is this share of 1/6.
+/// The first term of sin(A)/A that short_turn() leaves out, A^10/11!, is below 1e-16; its slope at the
+/// largest short turn is this share of 1/6.
 constexpr double kShortSlopeError = 2e-13;
 
 TEST(Rotation, ShortTurnsAreThoseOfTheLibraryToRounding) {
