@@ -79,11 +79,11 @@ if __name__ == "__main__":
     print(f"// near: worst relative error {nstr(error, 2)}")
     show("kNearA", a)
     show("kNearB", b)
-    far, error = fit_far(15, 11)
+    far, error = fit_far(5, 8)
     print(f"// far: worst relative error {nstr(error, 2)}")
     show("kFar", far)
     critical_ratio = 3 * sqrt(mpf(3))
     print(f"kRest = {float(critical_ratio - mpf(float(critical_ratio)))!r};")
-    for percent in (15, 20, 25):
-        for terms in range(10, 14):
+    for percent in (5, 15, 25):
+        for terms in range(7, 14, 2):
             print(f"// F up to x = {percent} %, {terms} terms: {nstr(fit_far(percent, terms)[1], 2)}")

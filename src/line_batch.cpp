@@ -2,6 +2,7 @@
 
 #include "src/line_batch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -41,14 +42,15 @@ void start_panorama(const Camera& camera, const BatchArray& x, const BatchArray&
 
 template <class Number>
 void start_lines(const Camera& camera, const BatchArray& x, const BatchArray& y, LineBatch<Number>& rays) {
+  rays.start = {};
+  std::fill_n(rays.path.v, kBatchSize, 0.0);
+  std::fill_n(rays.shapiro.v, kBatchSize, 0.0);
+  std::fill_n(rays.irregular, kBatchSize, 0.0);
+  std::fill_n(rays.captured, kBatchSize, 0.0);
   if (camera.projection == Projection::Perspective) {
     start_perspective(camera, x, y, rays);
   } else {
     start_panorama(camera, x, y, rays);
-  }
-  for (int i = 0; i < kBatchSize; ++i) {
-    rays.start.set(i, {Number(0.0), Number(0.0), Number(0.0)});
-    rays.path.v[i] = rays.shapiro.v[i] = rays.irregular[i] = rays.captured[i] = 0.0;
   }
 }
 

@@ -75,8 +75,8 @@ template <class Number>
   const double sine = is_short ? small.sine : whole.sine * (a * per_q);
   const double versine = is_short ? small.versine : 2.0 * half.sine * half.sine * per_q;
   // Slopes by q: for short turns from the series, dS/dq = -1/6 + q/60 ..., dE/dq = -1/24 + q/360 ...
-  constexpr std::array kSineSlope = {-1.0 / 6.0, 2.0 / 120.0, -3.0 / 5040.0, 4.0 / 362880.0};
-  constexpr std::array kVersineSlope = {-1.0 / 24.0, 2.0 / 720.0, -3.0 / 40320.0, 4.0 / 3628800.0};
+  constexpr std::array kSineSlope = {-1.0 / 6.0, 2.0 / 120.0, -3.0 / 5040.0};
+  constexpr std::array kVersineSlope = {-1.0 / 24.0, 2.0 / 720.0, -3.0 / 40320.0};
   const double sine_slope = is_short ? polynomial(kSineSlope, q0).value : 0.5 * (cosine - sine) * per_q;
   const double versine_slope =
       is_short ? polynomial(kVersineSlope, q0).value : (0.5 * sine - versine) * per_q;

@@ -47,34 +47,41 @@ struct Strength {
   double steepness = 0;  // -d alpha/db
 };
 
-/// Strength for b^2, by the law at its full length.
+/// What a law needs of b^2: the slow operations, root and division, which a loop of their own has done by the
+/// time that the law needs them.
 template <Law law, Reach reach, class Number>
-[[gnu::always_inline]] inline Strength<Number> full_strength(double m, const Number& b2) {
-  if constexpr (law == Law::Weak) {
-    const Number per_b = (4.0 * m) * reciprocal(b2);
+[[gnu::always_inline]] inline Number measured(const Number& b2) {
+  if constexpr (law == Law::Weak)
+    return reciprocal(b2);
+  else if constexpr (law == Law::Exact && reach == Reach::Near)
+    return sqrt(b2);
+  else
+    return reciprocal(sqrt(b2));
+}
+
+/// Strength by the law at its full length.
+template <Law law, Reach reach, class Number>
+[[gnu::always_inline]] inline Strength<Number> full_strength(double m, const Number& measure) {
+  if constexpr (law == Law::Weak) {  // 1/b^2
+    const Number per_b = (4.0 * m) * measure;
     return {per_b, Number(4.0 * m), value_of(per_b)};
-  }
-  if constexpr (law == Law::SecondOrder) {
+  } else if constexpr (law == Law::SecondOrder) {  // 1/b
     constexpr double kSecond = 15.0 * std::numbers::pi / 4.0;
-    const Number per_b = reciprocal(sqrt(b2));
-    const Number second = (kSecond * m * m) * per_b;
+    const Number second = (kSecond * m * m) * measure;
     const Number arc = 4.0 * m + second;
-    return {arc * (per_b * per_b), arc, value_of((arc + second) * (per_b * per_b))};
-  }
-  if constexpr (law == Law::Exact && reach == Reach::Far) {
+    const Number per_b2 = measure * measure;
+    return {arc * per_b2, arc, value_of((arc + second) * per_b2)};
+  } else if constexpr (reach == Reach::Far) {  // 1/b
     const double b_c = kCriticalRatio * m;
-    const Number per_b = reciprocal(sqrt(b2));
-    const Number x = b_c * per_b;
+    const Number x = b_c * measure;
     const ValueAndSlope f = polynomial(kFar, value_of(x));
     const Number arc = b_c * chained(x, f.value, f.slope);
-    const double steepness = (f.value + value_of(x) * f.slope) * value_of(x * per_b);
-    return {arc * (per_b * per_b), arc, steepness};
-  }
-  if constexpr (law == Law::Exact && reach == Reach::Near) {
-    const Number b = sqrt(b2);
-    const Deflection exact = near_exact(m, value_of(b));
-    const Number alpha = chained(b, exact.alpha, exact.dalpha_db);
-    return {alpha * reciprocal(b), alpha * b, -exact.dalpha_db};
+    const double steepness = (f.value + value_of(x) * f.slope) * value_of(x * measure);
+    return {arc * (measure * measure), arc, steepness};
+  } else {  // b
+    const Deflection exact = near_exact(m, value_of(measure));
+    const Number alpha = chained(measure, exact.alpha, exact.dalpha_db);
+    return {alpha * reciprocal(measure), alpha * measure, -exact.dalpha_db};
   }
 }
 
@@ -94,7 +101,8 @@ template <Law law, Reach reach, class Number>
   if constexpr (law != Law::Weak) {
     const Number nearest2 = (n * n) * select(ahead, b2, r2);
     const Number weakest = (4.0 * deflector.m) * reciprocal(nearest2);
-    const Number excess_per_b = full_strength<law, reach>(deflector.m, nearest2).per_b - weakest;
+    const Number excess_per_b =
+        full_strength<law, reach>(deflector.m, measured<law, reach>(nearest2)).per_b - weakest;
     // alpha/b = excess h/b; ahead excess = excess_per_b n b, behind excess_per_b n r.
     const Number reach_over_b = select(ahead, Number(1.0), sqrt(r2) * per_b2 * sqrt(b2));
     const Number share = select(ahead, 1.0 + cosine, b2 * per_b2);
@@ -104,15 +112,11 @@ template <Law law, Reach reach, class Number>
   return {per_b, per_b * b2};
 }
 
-inline constexpr double kLeastB2 = 1e-280;    // smaller squares lose digits
-inline constexpr double kFarthestB2 = 1e280;  // products of larger squares overflow
+inline constexpr double kLeastB2 = 1e-280;  // smaller squares lose digits
+inline constexpr double kFarthest = 1e139;  // products of squares of larger lengths overflow
 
-/// Smallest b^2 of a mass ahead that the kernels do.
-template <Reach reach>
-double nearest_b2(double m) {
-  const double b = reach == Reach::Far ? kCriticalRatio * m / kFarRatio : 0.0;
-  return std::max(b * b, kLeastB2);
-}
+/// Smallest impact parameter, over m, of the kernels for light far from the masses.
+inline constexpr double kFarImpact = kCriticalRatio / kFarRatio;
 
 template <Reach reach, class Number>
 [[gnu::always_inline]] inline Turn<Number> turn_within(const Number& q) {
@@ -127,85 +131,91 @@ template <Reach reach>
   return reach == Reach::Far ? q <= kShortTurn * kShortTurn : q <= kLongestTurn * kLongestTurn;
 }
 
+/// What a kernel has to know of a mass beside its law.
+template <Reach reach>
+struct Limits {
+  Limits(const Deflector& deflector, bool finite) : m(deflector.m), n(deflector.index) {
+    const double distance = length(deflector.position);
+    const double b = reach == Reach::Far ? kFarImpact * m : 0.0;
+    least_b2 = std::max(b / n * (b / n), kLeastB2);
+    least_b2_behind = kLeastB2;
+    const bool near_camera = finite && distance < (reach == Reach::Far ? kFarImpact : kPhotonSphere) * m;
+    if (near_camera || !(distance < kFarthest)) {
+      least_b2 = least_b2_behind = std::numeric_limits<double>::infinity();  // no ray fits
+      capture_ratio = 0.0;
+    }
+  }
+
+  double m, n;
+  double least_b2, least_b2_behind;
+  double capture_ratio = 1.0;
+
+  /// Does the kernel do for this impact parameter? (False for a NaN.)
+  [[gnu::always_inline]] bool fit(bool ahead, double b2) const {
+    return b2 >= (ahead ? least_b2 : least_b2_behind);
+  }
+  /// Is the light captured: no farther than b_c from a mass ahead?
+  [[gnu::always_inline]] bool capture(bool ahead, double b2) const {
+    const CriticalRadius critical = critical_radius(m * capture_ratio);
+    return ahead & ((n * std::sqrt(b2) - critical.b_c) - critical.rest <= 0.0) & (capture_ratio != 0.0);
+  }
+};
+
+/// Marks a ray that the kernel does not do for, or that is captured.
+template <Reach reach, class Number>
+[[gnu::always_inline]] inline void mark(int i, const Limits<reach>& limits, bool ahead, double b2,
+                                        LineBatch<Number>& rays) {
+  const bool fits = limits.fit(ahead, b2);
+  if constexpr (reach == Reach::Near) {
+    const bool captured = limits.capture(ahead, b2);
+    rays.captured[i] = captured ? 1.0 : rays.captured[i];
+    rays.irregular[i] = fits | captured ? rays.irregular[i] : 1.0;
+  } else {
+    rays.irregular[i] = fits ? rays.irregular[i] : 1.0;
+  }
+}
+
 /// Where the rays pass a single mass.
 template <class Number>
 struct Approach {
   VectorLane<Number> across;  // from the foot point to the mass
   Lane<Number> along;         // from the start to the foot point
-  Lane<Number> b2;
+  Lane<Number> measure;       // b^2 with finite distance, otherwise what the law needs of it
 };
-
-template <class Number>
-[[gnu::always_inline]] inline void approach(const Vec3& mass, const VectorLane<Number>& start,
-                                            const VectorLane<Number>& direction, Approach<Number>& to) {
-#pragma GCC ivdep
-  for (int i = 0; i < kBatchSize; ++i) {
-    const Vector<Number> d = direction.get(i);
-    const Vector<Number> to_mass = difference(constant<Number>(mass), start.get(i));
-    const Number along = dot(to_mass, d);
-    const Vector<Number> across = difference(to_mass, scaled(d, along));
-    to.across.set(i, across);
-    to.along.set(i, along);
-    to.b2.set(i, dot(across, across));
-  }
-}
-
-/// What a kernel has to know of a mass beside its law.
-template <Reach reach>
-struct Limits {
-  Limits(const Deflector& deflector, bool finite)
-      : m(deflector.m),
-        n(deflector.index),
-        least_b2(nearest_b2<reach>(deflector.m / deflector.index)),
-        near_camera(finite && length(deflector.position) <
-                                  (reach == Reach::Far ? kCriticalRatio / kFarRatio : kPhotonSphere) * m) {}
-
-  double m, n;
-  double least_b2;
-  bool near_camera;
-
-  /// Does the kernel do for this impact parameter?
-  [[gnu::always_inline]] bool fit(bool ahead, double b2) const {
-    return (b2 >= (ahead ? least_b2 : kLeastB2)) & (b2 <= kFarthestB2) & !near_camera;
-  }
-  /// Is the light captured: no farther than b_c from a mass ahead?
-  [[gnu::always_inline]] bool capture(bool ahead, double b2) const {
-    if (reach == Reach::Far) return false;
-    const CriticalRadius critical = critical_radius(m);
-    return ahead & ((n * std::sqrt(b2) - critical.b_c) - critical.rest <= 0.0) & !near_camera;
-  }
-};
-
-/// Marks a ray that the kernel does not do for, or that is captured.
-template <class Number>
-[[gnu::always_inline]] inline void mark(int i, bool fits, bool captured, LineBatch<Number>& rays) {
-  rays.captured[i] = captured ? 1.0 : rays.captured[i];
-  rays.irregular[i] = fits | captured ? rays.irregular[i] : 1.0;
-}
 
 /// A plane with one mass: the line turns about it. Rays have to stay below `limit_z` in direction.
 template <class Number, Law law, Reach reach, bool finite, bool path>
 LENSPLANE_KERNEL void turn_about(const Deflector& deflector, double limit_z, LineBatch<Number>& rays) {
   Approach<Number> to;
-  approach(deflector.position, rays.start, rays.direction, to);
   const Vector<Number> mass = constant<Number>(deflector.position);
   const Limits<reach> limits(deflector, finite);
 #pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
-    const Number b2 = to.b2.get(i);
+    const Vector<Number> direction = rays.direction.get(i);
+    const Vector<Number> to_mass = difference(mass, rays.start.get(i));
+    const Number along = dot(to_mass, direction);
+    const Vector<Number> across = difference(to_mass, scaled(direction, along));
+    const Number b2 = dot(across, across);
+    to.across.set(i, across);
+    to.along.set(i, along);
+    const bool ahead = finite ? value_of(dot(mass, direction)) >= 0.0 : true;
+    mark(i, limits, ahead, value_of(b2), rays);
+    if constexpr (finite)
+      to.measure.set(i, b2);
+    else
+      to.measure.set(i, measured<law, reach>(b2));
+  }
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const Number measure = to.measure.get(i);
     const Vector<Number> across = to.across.get(i);
     const Vector<Number> direction = rays.direction.get(i);
     Strength<Number> strength;
-    bool ahead = true;
-    if constexpr (finite) {
-      const Number from_camera = dot(mass, direction);
-      ahead = value_of(from_camera) >= 0.0;
-      strength = finite_strength<law, reach>(deflector, b2, from_camera);
-    } else {
-      strength = full_strength<law, reach>(deflector.m, b2);
-    }
-    const Number q = strength.per_b * strength.arc;
-    const Turn<Number> r = turn_within<reach>(q);
+    if constexpr (finite)
+      strength = finite_strength<law, reach>(deflector, measure, dot(mass, direction));
+    else
+      strength = full_strength<law, reach>(deflector.m, measure);
+    const Turn<Number> r = turn_within<reach>(strength.per_b * strength.arc);
     const Vector<Number> across_out =
         difference(scaled(across, r.cosine), scaled(direction, strength.arc * r.sine));
     const Vector<Number> out = sum(scaled(direction, r.cosine), scaled(across, strength.per_b * r.sine));
@@ -222,10 +232,7 @@ LENSPLANE_KERNEL void turn_about(const Deflector& deflector, double limit_z, Lin
     }
     rays.start.set(i, start);
     rays.direction.set(i, out);
-    const double b2_value = value_of(b2);
-    const bool fits =
-        limits.fit(ahead, b2_value) & turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z);
-    mark(i, fits, limits.capture(ahead, b2_value), rays);
+    rays.irregular[i] = value_of(out.z) < limit_z ? rays.irregular[i] : 1.0;
   }
 }
 
@@ -249,7 +256,7 @@ template <Law law, Reach reach, bool path>
 LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, double limit_z,
                                                LineBatch<Dual>& rays) {
   VectorLane<double> across_of;
-  Lane<double> along_of, b2_of;
+  Lane<double> along_of, per_b2_of, measure_of;
   const Vec3 mass = deflector.position;
   const Limits<reach> limits(deflector, false);
 #pragma GCC ivdep
@@ -258,26 +265,28 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
     const Vec3 to_mass(mass.x - rays.start.x.v[i], mass.y - rays.start.y.v[i], mass.z - rays.start.z.v[i]);
     const double along = dot(to_mass, d);
     const Vec3 across = difference(to_mass, scaled(d, along));
+    const double b2 = dot(across, across);
     across_of.set(i, across);
     along_of.v[i] = along;
-    b2_of.v[i] = dot(across, across);
+    mark(i, limits, true, b2, rays);
+    const double measure = measured<law, reach>(b2);
+    measure_of.v[i] = measure;
+    per_b2_of.v[i] = law == Law::Weak ? measure : reach == Reach::Far ? measure * measure : 1.0 / b2;
   }
 #pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
-    const double b2 = b2_of.v[i];
     const double along = along_of.v[i];
+    const double per_b2 = per_b2_of.v[i];
     const Vec3 across = across_of.get(i);
     const Vec3 d(rays.direction.x.v[i], rays.direction.y.v[i], rays.direction.z.v[i]);
     const Vec3 normal(d.y * across.z - d.z * across.y, d.z * across.x - d.x * across.z,
                       d.x * across.y - d.y * across.x);
-    const Strength<double> strength = full_strength<law, reach>(deflector.m, b2);
-    const double q = strength.per_b * strength.arc;
-    const Turn<double> r = turn_within<reach>(q);
+    const Strength<double> strength = full_strength<law, reach>(deflector.m, measure_of.v[i]);
+    const Turn<double> r = turn_within<reach>(strength.per_b * strength.arc);
     const double b_sine = strength.arc * r.sine;  // b sin(alpha)
     const double sine_per_b = strength.per_b * r.sine;
     const Vec3 across_out = difference(scaled(across, r.cosine), scaled(d, b_sine));
     const Vec3 out = sum(scaled(d, r.cosine), scaled(across, sine_per_b));
-    const double per_b2 = 1.0 / b2;
 
     const auto carried = [&](const Tangent& t) __attribute__((always_inline)) {
       const double along_across = t.p1 * per_b2;
@@ -306,8 +315,7 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
     }
     rays.start.set(i, dual_vector(start, start_x, start_y));
     rays.direction.set(i, dual_vector(out, out_x, out_y));
-    const bool fits = limits.fit(true, b2) & turn_fits<reach>(q) & (out.z < limit_z);
-    mark(i, fits, limits.capture(true, b2), rays);
+    rays.irregular[i] = out.z < limit_z ? rays.irregular[i] : 1.0;
   }
 }
 
@@ -358,17 +366,14 @@ LENSPLANE_KERNEL void add_to_sums(const Deflector& deflector, LineBatch<Number>&
       strength = finite_strength<law, reach>(deflector, b2, from_camera);
       sums.outward.set(i, sum(sums.outward.get(i), scaled(across, Number(limits.n - 1.0))));
     } else {
-      strength = full_strength<law, reach>(deflector.m, b2);
+      strength = full_strength<law, reach>(deflector.m, measured<law, reach>(b2));
     }
     const Vector<Number> bend = scaled(across, strength.per_b);
-    const Number q = strength.per_b * strength.arc;
     sums.bend.set(i, sum(sums.bend.get(i), bend));
     sums.kink.set(i, sum(sums.kink.get(i), scaled(bend, along)));
     sums.shift.set(i, sum(sums.shift.get(i), scaled(bend, strength.arc)));
     if constexpr (path) sums.arc.v[i] += value_of(strength.arc);
-    const double b2_value = value_of(b2);
-    mark(i, limits.fit(ahead, b2_value) & turn_fits<reach>(value_of(q)), limits.capture(ahead, b2_value),
-         rays);
+    mark(i, limits, ahead, value_of(b2), rays);
   }
 }
 
@@ -396,7 +401,8 @@ LENSPLANE_KERNEL void turn_by_sums(const SumsBatch<Number>& sums, double limit_z
     rays.start.set(i, start);
     rays.direction.set(i, out);
     if constexpr (path) rays.path.v[i] += way + sums.arc.v[i] * (1.0 - value_of(r.sine));
-    mark(i, turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z), false, rays);
+    const bool fits = turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z);
+    rays.irregular[i] = fits ? rays.irregular[i] : 1.0;
   }
 }
 

@@ -15,6 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Captured rays end here. A body that they met before stays; at infinity they see nothing.
 void end_captured(const BatchArray& captured, bool at_infinity, int bends, SurfaceBatch& surface) {
+  if (!any_of(captured)) return;
   for (int i = 0; i < kBatchSize; ++i) {
     if (captured[i] == 0.0 || (!at_infinity && surface.outcome[i] == Outcome::Hit)) continue;
     surface.s[i] = surface.t[i] = 0.0;
@@ -70,23 +71,31 @@ bool Sight::any_sphere() const {
                      [](const Surface& surface) { return std::holds_alternative<Sphere>(surface); });
 }
 
+namespace {
+
+void clear(SurfaceBatch& surface) {
+  std::fill_n(surface.s, kBatchSize, 0.0);
+  std::fill_n(surface.t, kBatchSize, 0.0);
+  std::fill_n(surface.distance, kBatchSize, 0.0);
+  surface.outcome.fill(Outcome::Missed);
+  if (surface.passes) *surface.passes = {};
+}
+
+}  // namespace
+
 TraceBatch make_batch(const Sight& sight) {
   TraceBatch batch;
   batch.surfaces.resize(sight.surfaces.size());
-  if (sight.effects.any()) {
-    for (SurfaceBatch& surface : batch.surfaces) surface.passes = std::make_unique<PassBatch>();
+  for (SurfaceBatch& surface : batch.surfaces) {
+    if (sight.effects.any()) surface.passes = std::make_unique<PassBatch>();
+    clear(surface);
   }
-  clear(batch);
   return batch;
 }
 
-void clear(TraceBatch& batch) {
-  for (SurfaceBatch& surface : batch.surfaces) {
-    std::fill_n(surface.s, kBatchSize, 0.0);
-    std::fill_n(surface.t, kBatchSize, 0.0);
-    std::fill_n(surface.distance, kBatchSize, 0.0);
-    surface.outcome.fill(Outcome::Missed);
-    if (surface.passes) *surface.passes = {};
+void clear_spheres(const Sight& sight, TraceBatch& batch) {
+  for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
+    if (std::holds_alternative<Sphere>(sight.surfaces[k])) clear(batch.surfaces[k]);
   }
 }
 

@@ -31,8 +31,8 @@ struct Sight {
 /// A batch with room for what is asked; nothing is met yet.
 TraceBatch make_batch(const Sight& sight);
 
-/// Sets everything to nothing met.
-void clear(TraceBatch& batch);
+/// Sets the spheres to nothing met: what lies at infinity is written for every ray.
+void clear_spheres(const Sight& sight, TraceBatch& batch);
 
 /// Writes one ray's result on one surface.
 template <class Number>

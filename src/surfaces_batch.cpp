@@ -2,6 +2,7 @@
 
 #include "src/surfaces_batch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -53,45 +54,51 @@ LENSPLANE_KERNEL void enter_sphere(const Sphere& sphere, const VectorLane<Number
 
 namespace {
 
-/// What a plate's picture is seen at: s and t, or zero where it has none.
-struct PlateLanes {
-  Lane<double> seen, magnification;
+/// Where a kernel writes (s, t) and what comes with it.
+struct PlateTarget {
+  double *s, *t;
+  double* unseen;                                         // 0, or 1 where the plate has no picture
+  double *ds_dx, *ds_dy, *dt_dx, *dt_dy, *magnification;  // with Dual numbers
 };
 
 template <class Number>
 LENSPLANE_KERNEL void plate_coordinates(const Camera& camera, const BatchArray& x, const BatchArray& y,
-                                        const LineBatch<Number>& rays, Lane<Number>& s, Lane<Number>& t,
-                                        PlateLanes& lanes) {
+                                        const LineBatch<Number>& rays, const PlateTarget& to) {
   const double slope = slope_per_pixel(camera);
   const double pixels_per_slope = 1.0 / slope;
   const double centre_x = camera.width / 2.0, centre_y = camera.height / 2.0;
   const double per_width = 1.0 / camera.width, per_height = 1.0 / camera.height;
+  const PlateTarget target = to;
 #pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
     const Vector<Number> d = rays.direction.get(i);
-    const Number per_depth = reciprocal(-d.z);
+    const Number per_depth = pixels_per_slope * reciprocal(-d.z);
     const double right = x[i] - centre_x, up = centre_y - y[i];
     // How far the picture has moved, so that light which is hardly bent keeps all digits of its pixel.
-    const Number moved_right = pixels_per_slope * (d.x * per_depth) - Number(right);
-    const Number moved_up = pixels_per_slope * (d.y * per_depth) - Number(up);
-    const Number s_there = (Number(x[i]) + moved_right) * per_width;
-    const Number t_there = Number(1.0) - (Number(y[i]) - moved_up) * per_height;
-    const bool seen = (value_of(d.z) < 0.0) & (std::abs(value_of(s_there)) <= kPlateLimit) &
-                      (std::abs(value_of(t_there)) <= kPlateLimit);
-    s.set(i, select(seen, s_there, Number(0.0)));
-    t.set(i, select(seen, t_there, Number(0.0)));
-    lanes.seen.v[i] = seen ? 1.0 : 0.0;
+    const Number moved_right = d.x * per_depth - Number(right);
+    const Number moved_up = d.y * per_depth - Number(up);
+    const Number s = (Number(x[i]) + moved_right) * per_width;
+    const Number t = Number(1.0) - (Number(y[i]) - moved_up) * per_height;
+    const bool seen = (value_of(d.z) < 0.0) & (std::abs(value_of(s)) <= kPlateLimit) &
+                      (std::abs(value_of(t)) <= kPlateLimit);
+    target.s[i] = seen ? value_of(s) : 0.0;
+    target.t[i] = seen ? value_of(t) : 0.0;
+    target.unseen[i] = seen ? 0.0 : 1.0;
     if constexpr (std::is_same_v<Number, Dual>) {
+      target.ds_dx[i] = seen ? s.dx : 0.0;
+      target.ds_dy[i] = seen ? s.dy : 0.0;
+      target.dt_dx[i] = seen ? t.dx : 0.0;
+      target.dt_dy[i] = seen ? t.dy : 0.0;
       const double cross_x = d.y.dx * d.z.dy - d.z.dx * d.y.dy;
       const double cross_y = d.z.dx * d.x.dy - d.x.dx * d.z.dy;
       const double cross_z = d.x.dx * d.y.dy - d.y.dx * d.x.dy;
       const double there = d.x.v * cross_x + d.y.v * cross_y + d.z.v * cross_z;
       // A pixel's solid angle, in closed form; film y points down.
       const double at_unit_depth = 1.0 + slope * slope * (right * right + up * up);
-      const double here = slope * slope / (at_unit_depth * std::sqrt(at_unit_depth));
-      const double mu = here / there;
+      const double mu = slope * slope / (at_unit_depth * std::sqrt(at_unit_depth) * there);
       const double least = mu > -kLargestMagnification ? mu : -kLargestMagnification;
-      lanes.magnification.v[i] = least < kLargestMagnification ? least : kLargestMagnification;
+      const double clamped = least < kLargestMagnification ? least : kLargestMagnification;
+      target.magnification[i] = seen ? clamped : 0.0;
     }
   }
 }
@@ -101,29 +108,18 @@ LENSPLANE_KERNEL void plate_coordinates(const Camera& camera, const BatchArray& 
 template <class Number>
 void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, const LineBatch<Number>& rays,
                 SurfaceBatch& surface) {
-  Lane<Number> s, t;
-  PlateLanes lanes;
-  plate_coordinates(camera, x, y, rays, s, t, lanes);
-  for (int i = 0; i < kBatchSize; ++i) {
-    surface.s[i] = value_of(s.get(i));
-    surface.t[i] = value_of(t.get(i));
-    surface.distance[i] = std::numeric_limits<double>::infinity();
-  }
-  double seen = 0.0;
-  for (int i = 0; i < kBatchSize; ++i) seen += lanes.seen.v[i];
-  surface.outcome.fill(Outcome::Hit);
-  for (int i = 0; seen < kBatchSize && i < kBatchSize; ++i) {
-    if (lanes.seen.v[i] == 0.0) surface.outcome[i] = Outcome::Behind;
-  }
+  alignas(64) BatchArray unseen;
+  PlateTarget target{surface.s, surface.t, unseen, nullptr, nullptr, nullptr, nullptr, nullptr};
   if constexpr (std::is_same_v<Number, Dual>) {
-    PassBatch& passes = *surface.passes;
-    for (int i = 0; i < kBatchSize; ++i) {
-      passes.ds_dx[i] = s.dx[i];
-      passes.ds_dy[i] = s.dy[i];
-      passes.dt_dx[i] = t.dx[i];
-      passes.dt_dy[i] = t.dy[i];
-      passes.magnification[i] = lanes.magnification.v[i];
-    }
+    PassBatch& p = *surface.passes;
+    target = {surface.s, surface.t, unseen, p.ds_dx, p.ds_dy, p.dt_dx, p.dt_dy, p.magnification};
+  }
+  plate_coordinates(camera, x, y, rays, target);
+  std::fill_n(surface.distance, kBatchSize, std::numeric_limits<double>::infinity());
+  surface.outcome.fill(Outcome::Hit);
+  if (!any_of(unseen)) return;
+  for (std::size_t i = 0; i < kBatchSize; ++i) {
+    if (unseen[i] != 0.0) surface.outcome[i] = Outcome::Behind;
   }
 }
 

@@ -96,7 +96,7 @@ TraceBatch Tracer::make_batch() const {
 
 void Tracer::trace(TraceBatch& batch) const {
   assert(batch.surfaces.size() == surfaces_.size());
-  clear(batch);
+  clear_spheres(sight(), batch);
   const bool flat = camera_.projection == Projection::Perspective;
   const bool paper = plan_.method == Method::Kishi || plan_.method == Method::ShinotsukaMakino;
   if (plan_.method == Method::Planes) {
@@ -140,7 +140,7 @@ void Tracer::trace_by_recipe(std::size_t recipe, Reach reach, TraceBatch& batch)
   } else {
     march_planes_batch<double>(view, deflectors, reach, batch, irregular);
   }
-  if (std::none_of(irregular, irregular + kBatchSize, [](double flag) { return flag != 0.0; })) return;
+  if (!any_of(irregular)) return;
   if (reach == Reach::Far) {
     PickedRays rays = picked(view, batch, [&](int i) { return irregular[i] != 0.0; });
     trace_by_recipe(recipe, Reach::Near, rays.batch);

@@ -15,6 +15,8 @@
 #include <string>
 
 #include "pipeline/cli/check.h"
+#include "pipeline/cli/plan.h"
+#include "pipeline/cli/probe.h"
 #include "pipeline/cli/render.h"
 #include "pipeline/image/failure.h"
 
@@ -34,6 +36,10 @@ void run(const lensplane::Options& options) {
   switch (options.command) {
     case lensplane::Command::Check:
       return lensplane::run_check(options);
+    case lensplane::Command::Plan:
+      return lensplane::run_plan(options);
+    case lensplane::Command::Probe:
+      return lensplane::run_probe(options);
     case lensplane::Command::Render:
     case lensplane::Command::Map:
       std::signal(SIGINT, request_interrupt);

@@ -19,6 +19,8 @@ constexpr int kMaxProxy = 64;
 constexpr const char* kExamples = R"(
 Examples:
   lensplane check scenes/seed-fig5.yaml                   is the shot right? reads no image
+  lensplane plan scenes/seed-fig5.yaml                    what will be simulated, and why
+  lensplane probe scenes/seed-fig5.yaml -f 1001 -x 200.5 -y 120     one ray, with all that happens to it
   lensplane render scenes/seed-fig5.yaml                  maps, picture and review picture of every frame
   lensplane render shot.yaml -f 1001-1010 --proxy 4       ten frames at a quarter of the resolution
   lensplane map shot.yaml --output /tmp/maps              only the STMaps, for another compositor
@@ -66,15 +68,24 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
   app.footer(kExamples);
 
   CLI::App* check = app.add_subcommand("check", "is the shot right? reads no image");
+  CLI::App* plan = app.add_subcommand("plan", "what will be simulated, and why");
   CLI::App* render = app.add_subcommand("render", "everything: maps, composite, review picture");
-  CLI::App* map = app.add_subcommand("map", "only the maps");
-  for (CLI::App* command : {check, render, map}) {
-    add_common(*command, options);
-    command->footer(kExamples);
+  CLI::App* map = app.add_subcommand("map", "only the maps and their data files");
+  CLI::App* probe = app.add_subcommand("probe", "one film position in full");
+  const std::pair<CLI::App*, Command> commands[] = {{check, Command::Check},
+                                                    {plan, Command::Plan},
+                                                    {render, Command::Render},
+                                                    {map, Command::Map},
+                                                    {probe, Command::Probe}};
+  for (const auto& [app_of, command] : commands) {
+    add_common(*app_of, options);
+    app_of->footer(kExamples);
+    app_of->callback([&options, command = command] { options.command = command; });
   }
   for (CLI::App* command : {render, map}) add_rendering(*command, options);
-  render->callback([&options] { options.command = Command::Render; });
-  map->callback([&options] { options.command = Command::Map; });
+  for (CLI::App* command : {plan, probe}) command->add_flag("--json", options.json, "for programs: as JSON");
+  probe->add_option("-x", options.x, "pixels from the left of the frame, fractions allowed")->required();
+  probe->add_option("-y", options.y, "pixels from the top of the frame, fractions allowed")->required();
 
   try {
     app.parse(argc, argv);

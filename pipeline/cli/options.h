@@ -12,7 +12,7 @@
 
 namespace lensplane {
 
-enum class Command { Check, Render, Map };
+enum class Command { Check, Plan, Render, Map, Probe };
 
 struct Options {
   Command command = Command::Check;
@@ -25,6 +25,8 @@ struct Options {
   std::string stats;
   bool quiet = false;
   bool redo = false;
+  bool json = false;
+  std::string x, y;  // of a probe, as written
 };
 
 /// What parsing a command line leads to: options, or text to print and leave with Done.

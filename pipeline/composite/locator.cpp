@@ -4,16 +4,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "src/projection.h"
 
 namespace lensplane {
 namespace {
 
 // Radius of the nearest marker, as a share of the frame's width.
 constexpr double kMarkerSize = 0.05;
-constexpr double kClearest = 0.15;  // alpha in the middle of a marker
+constexpr double kLargestMarker = 0.5;  // the same as a share of its distance: the camera stays outside
+constexpr double kClearest = 0.15;      // alpha in the middle of a marker
 
 // Linear, working space; neighbours well apart, also for colour-blind eyes.
 constexpr std::array<Rgba, 6> kMarkerColours = {{{.90F, .35F, .02F, 1},
@@ -41,8 +43,17 @@ std::shared_ptr<const Texture> marker_texture(std::size_t lens) {
   return std::make_shared<const Texture>(std::move(picture), Wrap::Globe);
 }
 
-double depth_of(const Camera& camera, const Vec3& point) {
-  return -camera.axes.local_from_parent(point - camera.position).z;
+/// How far a lens is, as its size in the picture goes; 0 or less where the camera does not see it.
+double distance_to(const Camera& camera, const Vec3& point) {
+  const Vec3 seen = camera.axes.local_from_parent(point - camera.position);
+  return camera.projection == Projection::Perspective ? -seen.z : seen.length();
+}
+
+/// The axes of a marker at `position`, whose +z is turned to the camera.
+Basis facing(const Camera& camera, const Vec3& position) {
+  if (camera.projection == Projection::Perspective) return camera.axes;
+  const Basis axes = basis_looking_along(position - camera.position, camera.axes.y);
+  return is_valid(axes) ? axes : basis_looking_along(position - camera.position, camera.axes.z);
 }
 
 }  // namespace
@@ -52,13 +63,14 @@ LocatorView make_locator(const Scene& scene, const std::vector<SurfaceLook>& loo
   LocatorView locator{{camera, {}, scene.surfaces}, looks};
   double nearest = std::numeric_limits<double>::infinity();
   for (const Lens& lens : scene.lenses) {
-    const double depth = depth_of(camera, lens.position);
-    if (depth > 0) nearest = std::min(nearest, depth);
+    const double distance = distance_to(camera, lens.position);
+    if (distance > 0) nearest = std::min(nearest, distance);
   }
-  const double radius = kMarkerSize * nearest * 2.0 * std::tan(camera.fov_rad / 2.0);
+  const double share = std::min(kMarkerSize * pixel_angle(camera) * camera.width, kLargestMarker);
   for (std::size_t i = 0; i < scene.lenses.size(); ++i) {
-    if (!(depth_of(camera, scene.lenses[i].position) > 0)) continue;
-    locator.scene.surfaces.push_back(Sphere{scene.lenses[i].position, radius, camera.axes});
+    const Vec3& position = scene.lenses[i].position;
+    if (!(distance_to(camera, position) > 0)) continue;
+    locator.scene.surfaces.push_back(Sphere{position, share * nearest, facing(camera, position)});
     // Lit from the camera's upper right, so that the markers read as round.
     locator.looks.push_back({marker_texture(i), Vec3(0.4, 0.5, 0.77).normalized()});
   }

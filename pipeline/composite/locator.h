@@ -2,7 +2,7 @@
 //
 // The locator: a picture of where the lenses are, seen by the shot's camera as if no light were bent.
 //
-// The layers stand where they are; every lens in front of the camera is drawn as a coloured bubble of one
+// The layers stand where they are; every lens that the camera can see is drawn as a coloured bubble of one
 // size in space, so that farther ones look smaller. The bubbles are markers: they are in no map and no
 // simulation.
 

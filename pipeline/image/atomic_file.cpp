@@ -2,12 +2,10 @@
 
 #include "pipeline/image/atomic_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 
 #include "pipeline/image/failure.h"
@@ -19,45 +17,62 @@ namespace {
   throw Failure(ExitCode::BadOutput, fmt::format("{}: cannot be written: {}", path.string(), reason));
 }
 
-/// Writes everything and closes; the errno of what went wrong, or 0.
-int write_and_close(int file, std::span<const char> bytes) {
-  int error = 0;
-  while (!bytes.empty() && error == 0) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written >= 0) {
-      bytes = bytes.subspan(static_cast<std::size_t>(written));
-    } else if (errno != EINTR) {
-      error = errno;
-    }
-  }
-  if (error == 0 && ::fsync(file) != 0 && errno != EINVAL && errno != ENOTSUP) error = errno;
-  if (::close(file) != 0 && error == 0) error = errno;
-  return error;
-}
-
 }  // namespace
 
-void write_atomically(const std::filesystem::path& wanted, std::span<const char> bytes) {
-  std::error_code error_code;
+AtomicFile::AtomicFile(const std::filesystem::path& path) : wanted_(path), file_(nullptr, std::fclose) {
+  std::error_code error;
   // A link is followed: the file that it leads to is replaced, not the link.
-  const bool is_link = std::filesystem::is_symlink(wanted, error_code);
-  const std::filesystem::path path = is_link ? std::filesystem::weakly_canonical(wanted, error_code) : wanted;
-  const auto status = std::filesystem::status(path, error_code);
+  const bool is_link = std::filesystem::is_symlink(wanted_, error);
+  path_ = is_link ? std::filesystem::weakly_canonical(wanted_, error) : wanted_;
+  const auto status = std::filesystem::status(path_, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    refuse(wanted, "it is not a file");
-  const std::filesystem::path folder = path.parent_path().empty() ? "." : path.parent_path();
-  std::filesystem::create_directories(folder, error_code);
-  if (error_code) refuse(wanted, error_code.message());
+    refuse(wanted_, "it is not a file");
+  const std::filesystem::path folder = path_.parent_path().empty() ? "." : path_.parent_path();
+  std::filesystem::create_directories(folder, error);
+  if (error) refuse(wanted_, error.message());
+  temporary_ = folder / fmt::format(".{}.{}.part", path_.filename().string(), ::getpid());
+  file_.reset(std::fopen(temporary_.c_str(), "wbe"));  // e: not for programs that are started meanwhile
+  if (!file_) refuse(wanted_, std::strerror(errno));
+}
 
-  const std::filesystem::path temporary =
-      folder / fmt::format(".{}.{}.part", path.filename().string(), ::getpid());
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) refuse(wanted, std::strerror(errno));
-  int error = write_and_close(file, bytes);
-  if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-  if (error == 0) return;
-  ::unlink(temporary.c_str());
-  refuse(wanted, std::strerror(error));
+AtomicFile::~AtomicFile() {
+  if (!committed_) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::fail() {
+  if (error_ == 0) error_ = errno;
+  refuse(wanted_, std::strerror(error_));
+}
+
+void AtomicFile::write(std::span<const char> bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) fail();
+}
+
+std::uint64_t AtomicFile::position() {
+  const off_t position = ::ftello(file_.get());
+  if (position < 0) fail();
+  return static_cast<std::uint64_t>(position);
+}
+
+void AtomicFile::seek(std::uint64_t position) {
+  if (::fseeko(file_.get(), static_cast<off_t>(position), SEEK_SET) != 0) fail();
+}
+
+std::size_t AtomicFile::commit() {
+  if (error_ != 0 || std::fflush(file_.get()) != 0) fail();
+  if (::fsync(::fileno(file_.get())) != 0 && errno != EINVAL && errno != ENOTSUP) fail();
+  if (::fseeko(file_.get(), 0, SEEK_END) != 0) fail();
+  const std::uint64_t size = position();
+  if (std::fclose(file_.release()) != 0) fail();
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
+  committed_ = true;
+  return size;
+}
+
+void write_atomically(const std::filesystem::path& path, std::span<const char> bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
 }
 
 }  // namespace lensplane

@@ -8,112 +8,32 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfIntAttribute.h>
-#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfStandardAttributes.h>
-
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
-#include <limits>
-#include <map>
+#include <functional>
 
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/failure.h"
-#include "pipeline/image/version.h"
 
 namespace lensplane {
 namespace {
 
-/// A file in memory, so that it can be put on the disk whole.
-class MemoryStream : public Imf::OStream {
+/// OpenEXR's view of an AtomicFile.
+class AtomicStream : public Imf::OStream {
  public:
-  MemoryStream() : Imf::OStream("memory") {}
+  explicit AtomicStream(const std::filesystem::path& path) : Imf::OStream(path.c_str()), file_(path) {}
   void write(const char bytes[], int count) override {
-    const std::size_t end = position_ + static_cast<std::size_t>(count);
-    if (end > bytes_.size()) bytes_.resize(end);
-    std::copy_n(bytes, count, bytes_.begin() + static_cast<std::ptrdiff_t>(position_));
-    position_ = end;
+    file_.write({bytes, static_cast<std::size_t>(count)});
   }
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override { position_ = position; }
-  const std::vector<char>& bytes() const { return bytes_; }
+  std::uint64_t tellp() override { return file_.position(); }
+  void seekp(std::uint64_t position) override { file_.seek(position); }
+  std::size_t commit() { return file_.commit(); }
 
  private:
-  std::vector<char> bytes_;
-  std::size_t position_ = 0;
+  AtomicFile file_;
 };
-
-Imf::Compression imf_compression(ExrCompression compression) {
-  switch (compression) {
-    case ExrCompression::None:
-      return Imf::NO_COMPRESSION;
-    case ExrCompression::Rle:
-      return Imf::RLE_COMPRESSION;
-    case ExrCompression::Zips:
-      return Imf::ZIPS_COMPRESSION;
-    case ExrCompression::Zip:
-      return Imf::ZIP_COMPRESSION;
-    case ExrCompression::Piz:
-      return Imf::PIZ_COMPRESSION;
-    case ExrCompression::Pxr24:
-      return Imf::PXR24_COMPRESSION;
-    case ExrCompression::B44:
-      return Imf::B44_COMPRESSION;
-    case ExrCompression::B44a:
-      return Imf::B44A_COMPRESSION;
-    case ExrCompression::Dwaa:
-      return Imf::DWAA_COMPRESSION;
-    case ExrCompression::Dwab:
-      return Imf::DWAB_COMPRESSION;
-  }
-  return Imf::ZIP_COMPRESSION;
-}
-
-/// Camera from world for row vectors, as EXR stores it.
-Imath::M44f world_to_camera(const Basis& axes, const Vec3& position) {
-  const Vec3 origin = axes.local_from_parent(-position) + Vec3(0);  // + 0: no negative zeros
-  Imath::M44f matrix;
-  for (int i = 0; i < 3; ++i) {
-    matrix[i][0] = static_cast<float>(axes.x[i]);
-    matrix[i][1] = static_cast<float>(axes.y[i]);
-    matrix[i][2] = static_cast<float>(axes.z[i]);
-    // float32 ends at 3.4e38 m, far outside the universe.
-    matrix[3][i] = static_cast<float>(std::clamp(origin[i], -1e38, 1e38));
-  }
-  return matrix;
-}
-
-Imf::Chromaticities imf_chromaticities(const Chromaticities& c) {
-  const auto xy = [&c](std::size_t i) { return Imath::V2f(c[i][0], c[i][1]); };
-  return {xy(0), xy(1), xy(2), xy(3)};
-}
-
-Imf::Header imf_header(const ExrWindow& window, const ExrFormat& format, const ExrHeader& header) {
-  const Imath::Box2i display({0, 0}, {window.width - 1, window.height - 1});
-  const Imath::Box2i data(display.min - Imath::V2i(window.overscan),
-                          display.max + Imath::V2i(window.overscan));
-  Imf::Header imf(display, data);
-  imf.compression() = imf_compression(format.compression);
-  const auto text = [&imf](const char* name, const std::string& value) {
-    imf.insert(name, Imf::StringAttribute(value));
-  };
-  text("lensplane:version", kVersion);
-  text("lensplane:shot", header.shot);
-  imf.insert("lensplane:frame", Imf::IntAttribute(header.frame));
-  text("lensplane:plan", header.plan);
-  text("lensplane:parameters", header.parameters);
-  text("lensplane:st_origin", "bottom left");
-  if (!header.amplification.empty()) text("lensplane:amplification", header.amplification);
-  if (!header.colour_interop.empty()) text("colorInteropID", header.colour_interop);
-  if (header.chromaticities) Imf::addChromaticities(imf, imf_chromaticities(*header.chromaticities));
-  imf.insert("framesPerSecond", Imf::RationalAttribute(Imf::Rational(
-                                    header.fps.numerator, static_cast<unsigned>(header.fps.denominator))));
-  imf.insert("worldToCamera",
-             Imf::M44fAttribute(world_to_camera(header.camera_axes, header.camera_position)));
-  return imf;
-}
 
 std::vector<half> half_from_float(const ExrChannel& channel, std::size_t count) {
   constexpr float kLargestHalf = 65504.0F;
@@ -124,48 +44,86 @@ std::vector<half> half_from_float(const ExrChannel& channel, std::size_t count) 
   return samples;
 }
 
-/// Where OpenEXR finds the samples of a channel: it addresses them by absolute coordinates of the data
-/// window.
-Imf::Slice slice_of(PixelType type, const void* samples, std::size_t sample_size, const ExrWindow& window) {
-  const std::size_t row = sample_size * static_cast<std::size_t>(window.width + 2 * window.overscan);
-  const auto offset =
-      static_cast<std::ptrdiff_t>(window.overscan) * static_cast<std::ptrdiff_t>(row + sample_size);
-  char* base = const_cast<char*>(static_cast<const char*>(samples)) + offset;
-  return {type == PixelType::Half ? Imf::HALF : Imf::FLOAT, base, sample_size, row};
+}  // namespace
+
+struct ExrFile::State {
+  std::filesystem::path path;
+  Imf::PixelType type;
+  AtomicStream stream;
+  std::optional<Imf::OutputFile> file;  // writes its table of rows when it goes
+  int next_row;
+
+  /// Where OpenEXR finds samples that begin at the next row: it addresses them by absolute coordinates of the
+  /// data window.
+  Imf::Slice slice_of(const void* samples, std::size_t sample_size) const {
+    const Imath::Box2i data = file->header().dataWindow();
+    const std::size_t row = sample_size * (static_cast<std::size_t>(data.size().x) + 1);
+    const auto offset =
+        static_cast<std::ptrdiff_t>(sample_size) * data.min.x + static_cast<std::ptrdiff_t>(row) * next_row;
+    char* base = const_cast<char*>(static_cast<const char*>(samples)) - offset;
+    return {type, base, sample_size, row};
+  }
+
+  /// Runs `work`; what OpenEXR throws becomes a Failure.
+  void guarded(const std::function<void()>& work) const try { work(); } catch (const Failure&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Failure(ExitCode::BadOutput, path.string() + ": cannot be written: " + error.what());
+  }
+};
+
+ExrFile::ExrFile(const std::filesystem::path& path, const ExrWindow& window,
+                 const std::vector<std::string>& channels, const ExrFormat& format, const ExrHeader& header) {
+  const Imf::PixelType type = format.type == PixelType::Half ? Imf::HALF : Imf::FLOAT;
+  Imf::Header imf = imf_header(window, format, header);
+  for (const std::string& channel : channels) imf.channels().insert(channel, Imf::Channel(type));
+  state_.reset(new State{path, type, AtomicStream(path), {}, -window.overscan});
+  state_->guarded([&] { state_->file.emplace(state_->stream, imf); });
 }
 
-}  // namespace
+ExrFile::~ExrFile() = default;
+
+void ExrFile::write(const std::vector<ExrChannel>& samples, int rows) {
+  const Imath::Box2i data = state_->file->header().dataWindow();
+  const std::size_t count = static_cast<std::size_t>(rows) * (static_cast<std::size_t>(data.size().x) + 1);
+  Imf::FrameBuffer frame;
+  std::vector<std::vector<half>> halves;
+  for (const ExrChannel& channel : samples) {
+    if (state_->type == Imf::HALF) {
+      halves.push_back(half_from_float(channel, count));
+      frame.insert(channel.name, state_->slice_of(halves.back().data(), sizeof(half)));
+    } else {
+      frame.insert(channel.name, state_->slice_of(channel.samples, channel.stride * sizeof(float)));
+    }
+  }
+  state_->guarded([&] {
+    state_->file->setFrameBuffer(frame);
+    state_->file->writePixels(rows);
+  });
+  state_->next_row += rows;
+}
+
+std::size_t ExrFile::commit() {
+  state_->file.reset();
+  return state_->stream.commit();
+}
 
 std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window,
                       const std::vector<ExrChannel>& channels, const ExrFormat& format,
                       const ExrHeader& header) {
-  Imf::Header imf = imf_header(window, format, header);
-  Imf::FrameBuffer frame;
-  std::map<std::string, std::vector<half>> halves;
-  const int width = window.width + 2 * window.overscan;
-  const int height = window.height + 2 * window.overscan;
-  for (const ExrChannel& channel : channels) {
-    imf.channels().insert(channel.name,
-                          Imf::Channel(format.type == PixelType::Half ? Imf::HALF : Imf::FLOAT));
-    if (format.type == PixelType::Half) {
-      auto& samples = halves[channel.name];
-      samples = half_from_float(channel, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-      frame.insert(channel.name, slice_of(format.type, samples.data(), sizeof(half), window));
-    } else {
-      frame.insert(channel.name,
-                   slice_of(format.type, channel.samples, channel.stride * sizeof(float), window));
-    }
+  constexpr int kRowsAtOnce = 256;  // as much as is converted to half at a time
+  std::vector<std::string> names;
+  for (const ExrChannel& channel : channels) names.push_back(channel.name);
+  ExrFile file(path, window, names, format, header);
+  const int width = window.width + 2 * window.overscan, height = window.height + 2 * window.overscan;
+  std::vector<ExrChannel> rest = channels;
+  for (int row = 0; row < height; row += kRowsAtOnce) {
+    const int rows = std::min(kRowsAtOnce, height - row);
+    file.write(rest, rows);
+    for (ExrChannel& channel : rest)
+      channel.samples += channel.stride * static_cast<std::size_t>(rows) * static_cast<std::size_t>(width);
   }
-  MemoryStream stream;
-  try {
-    Imf::OutputFile file(stream, imf);
-    file.setFrameBuffer(frame);
-    file.writePixels(height);
-  } catch (const std::exception& error) {
-    throw Failure(ExitCode::BadOutput, path.string() + ": cannot be written: " + error.what());
-  }
-  write_atomically(path, stream.bytes());
-  return stream.bytes().size();
+  return file.commit();
 }
 
 std::optional<std::string> read_exr_attribute(const std::filesystem::path& path,

@@ -7,28 +7,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "pipeline/image/exr_format.h"
-#include "src/basis.h"
+#include "pipeline/image/exr_header.h"
 
 namespace lensplane {
-
-/// What a file says about itself.
-struct ExrHeader {
-  std::string shot;
-  int frame = 0;
-  std::string plan;            // one line
-  std::string parameters;      // hash of everything that determines the pixels
-  std::string colour_interop;  // colorInteropID: "lin_ap1_scene", "data"; empty when the space has none
-  std::optional<Chromaticities> chromaticities;
-  Rational fps;
-  Basis camera_axes;          // world from camera
-  Vec3 camera_position{0};    // metres
-  std::string amplification;  // "earth 4.46": A of each sphere layer; empty when there is none
-};
 
 /// One channel, row by row from the top.
 struct ExrChannel {
@@ -37,16 +23,26 @@ struct ExrChannel {
   std::size_t stride = 1;  // floats from one sample to the next
 };
 
-/// A display window of `width` x `height` at the origin, and a data window larger by `overscan` on every
-/// side.
-struct ExrWindow {
-  int width;
-  int height;
-  int overscan;
+/// A single-part file that is written from the top, some rows at a time, and appears whole or not at all.
+/// Half samples are clamped to the largest half. Throws Failure (BadOutput).
+class ExrFile {
+ public:
+  /// `channels` are their names.
+  ExrFile(const std::filesystem::path& path, const ExrWindow& window,
+          const std::vector<std::string>& channels, const ExrFormat& format, const ExrHeader& header);
+  ~ExrFile();
+
+  /// The next `rows` rows of all channels; `samples` begin at the first of them.
+  void write(const std::vector<ExrChannel>& samples, int rows);
+  /// After the last row. Returns the file's size in bytes.
+  std::size_t commit();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
-/// Writes a single-part file, whole or not at all. Half samples are clamped to the largest half. Returns its
-/// size in bytes. Throws Failure (BadOutput).
+/// Writes the whole file. Returns its size in bytes.
 std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window,
                       const std::vector<ExrChannel>& channels, const ExrFormat& format,
                       const ExrHeader& header);

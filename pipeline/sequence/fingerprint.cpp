@@ -11,6 +11,46 @@
 #include "pipeline/image/version.h"
 
 namespace lensplane {
+namespace {
+
+void add_scene(Fingerprint& print, const Scene& scene) {
+  const Camera& camera = scene.camera;
+  print.add(camera.width).add(camera.height).add(camera.overscan).add(camera.fov_rad);
+  print.add(static_cast<int>(camera.projection));
+  print.add(camera.position).add(camera.axes);
+  for (const Lens& lens : scene.lenses) print.add("lens").add(lens.m).add(lens.position);
+  for (const Surface& surface : scene.surfaces) {
+    if (std::holds_alternative<Plate>(surface)) print.add("plate");
+    if (std::holds_alternative<LatLong>(surface)) print.add("latlong");
+    if (const auto* sphere = std::get_if<Sphere>(&surface)) {
+      print.add("sphere").add(sphere->centre).add(sphere->radius).add(sphere->axes);
+    }
+  }
+}
+
+/// Where the masses are follows from the scene: only what the plan makes of them is added.
+void add_recipe(Fingerprint& print, const Deflectors& recipe) {
+  print.add("recipe").add(static_cast<double>(recipe.outward)).add(recipe.finite_distance);
+  print.add(recipe.flat).add(recipe.blind);
+  for (const DeflectorPlane& plane : recipe.planes) {
+    print.add("plane");
+    for (const Deflector& deflector : plane.deflectors) {
+      print.add(static_cast<double>(deflector.lens)).add(static_cast<int>(deflector.law));
+      print.add(deflector.index);
+    }
+  }
+}
+
+void add_plan(Fingerprint& print, const Plan& plan) {
+  print.add(std::string(name_of(plan.method)));
+  if (plan.method == Method::Geodesic) print.add(plan.geodesic_tolerance);
+  for (const Deflectors& recipe : plan.recipes) add_recipe(print, recipe);
+  const TileLevels& tiles = plan.tiles;
+  print.add("tiles").add(tiles.size).add(tiles.columns).add(tiles.rows);
+  print.add(std::string(tiles.level.begin(), tiles.level.end()));
+}
+
+}  // namespace
 
 Fingerprint& Fingerprint::add(const std::string& text) {
   text_ += fmt::format("{}:{};", text.size(), text);
@@ -39,19 +79,9 @@ std::string Fingerprint::digest() const {
 
 Fingerprint fingerprint_of_trace(const Scene& scene, const Plan& plan) {
   Fingerprint print;
-  print.add(kVersion).add(std::string(name_of(plan.method)));
-  const Camera& camera = scene.camera;
-  print.add(camera.width).add(camera.height).add(camera.overscan).add(camera.fov_rad);
-  print.add(static_cast<int>(camera.projection));
-  print.add(camera.position).add(camera.axes);
-  for (const Lens& lens : scene.lenses) print.add("lens").add(lens.m).add(lens.position);
-  for (const Surface& surface : scene.surfaces) {
-    if (std::holds_alternative<Plate>(surface)) print.add("plate");
-    if (std::holds_alternative<LatLong>(surface)) print.add("latlong");
-    if (const auto* sphere = std::get_if<Sphere>(&surface)) {
-      print.add("sphere").add(sphere->centre).add(sphere->radius).add(sphere->axes);
-    }
-  }
+  print.add(kVersion);
+  add_scene(print, scene);
+  add_plan(print, plan);
   return print;
 }
 

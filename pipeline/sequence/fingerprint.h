@@ -30,7 +30,8 @@ class Fingerprint {
   std::string text_;
 };
 
-/// What determines the traced light: camera, lenses, surfaces, method, and lensplane's version.
+/// What determines the traced light: camera, lenses, surfaces, the plan without its effects, and lensplane's
+/// version.
 Fingerprint fingerprint_of_trace(const Scene& scene, const Plan& plan);
 
 }  // namespace lensplane

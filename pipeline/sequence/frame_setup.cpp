@@ -10,13 +10,23 @@
 namespace lensplane {
 namespace {
 
-/// The frame rate and the working space determine no number of a map, but its header says them.
-std::string fingerprint_of_map(const Shot& shot, const ColourConfig& colours, const FrameSetup& setup) {
-  return fingerprint_of_trace(setup.scene, setup.plan)
+/// What the frame rate, the working space and the plan's line are determines no number of a map, but its
+/// header says them.
+Fingerprint fingerprint_of_map(const Shot& shot, const ColourConfig& colours, const Scene& scene,
+                               const Plan& plan) {
+  return fingerprint_of_trace(scene, plan)
+      .add(describe(plan))
       .add(shot.fps.numerator)
       .add(shot.fps.denominator)
-      .add(colours.interop_id(shot.colour.working.text))
-      .digest();
+      .add(colours.interop_id(shot.colour.working.text));
+}
+
+Fingerprint fingerprint_of_data(const Shot& shot, const ColourConfig& colours, const Scene& scene,
+                                const Plan& plan) {
+  Fingerprint print = fingerprint_of_map(shot, colours, scene, plan);
+  print.add("data");
+  for (const EffectName& entry : kEffectNames) print.add(plan.effects.*entry.effect);
+  return print;
 }
 
 std::string fingerprint_of_picture(const Shot& shot, TextureStore& textures, int frame,
@@ -41,14 +51,15 @@ std::string fingerprint_of_review(const Shot& shot, const ColourConfig& colours,
       .digest();
 }
 
-ExrHeader common_header(const Shot& shot, const ColourConfig& colours, int frame, const FrameSetup& setup) {
+ExrHeader common_header(const Shot& shot, const ColourConfig& colours, int frame, const Scene& scene,
+                        const Plan& plan) {
   ExrHeader header;
   header.shot = shot.name;
   header.frame = frame;
-  header.plan = describe(setup.plan);
+  header.plan = describe(plan);
   header.fps = shot.fps;
-  header.camera_axes = setup.scene.camera.axes;
-  header.camera_position = setup.scene.camera.position;
+  header.camera_axes = scene.camera.axes;
+  header.camera_position = scene.camera.position;
   header.chromaticities = colours.chromaticities(shot.colour.working.text);
   return header;
 }
@@ -57,23 +68,42 @@ bool exr_is_done(const std::filesystem::path& path, const ExrHeader& header) {
   return read_exr_attribute(path, "parameters") == header.parameters;
 }
 
+/// The scene of the frame, how it is traced, and what the files of its maps say.
+FrameSetup set_up_trace(const Shot& shot, const ColourConfig& colours, int frame) {
+  FrameSetup setup;
+  setup.scene = scene_at(shot, frame);
+  TraceSettings settings = trace_at(shot, frame);
+  const auto header = [&](const Plan& plan, const Fingerprint& print) {
+    ExrHeader header = common_header(shot, colours, frame, setup.scene, plan);
+    header.colour_interop = "data";
+    header.parameters = print.digest();
+    return header;
+  };
+  if (settings.effects.any()) {
+    setup.data_plan = plan_trace(setup.scene, settings);
+    setup.data_header =
+        header(setup.data_plan, fingerprint_of_data(shot, colours, setup.scene, setup.data_plan));
+  }
+  settings.effects = {};
+  setup.plan = plan_trace(setup.scene, settings);
+  setup.map_header = header(setup.plan, fingerprint_of_map(shot, colours, setup.scene, setup.plan));
+  return setup;
+}
+
 }  // namespace
 
 FrameSetup set_up_frame(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
                         const FrameTasks& tasks) {
-  FrameSetup setup;
-  setup.scene = scene_at(shot, frame);
-  setup.plan = plan_trace(setup.scene, shot.method);
-  setup.map_header = common_header(shot, colours, frame, setup);
-  setup.map_header.colour_interop = "data";
-  setup.map_header.parameters = fingerprint_of_map(shot, colours, setup);
+  FrameSetup setup = set_up_trace(shot, colours, frame);
   for (std::size_t k = 0; tasks.maps && k < shot.layers.size(); ++k) {
     if (!shot.output.maps[k]) continue;
-    if (tasks.redo || !exr_is_done(map_path(shot, shot.layers[k].name, frame), setup.map_header))
-      setup.maps.push_back(k);
+    const std::string& layer = shot.layers[k].name;
+    if (tasks.redo || !exr_is_done(map_path(shot, layer, frame), setup.map_header)) setup.maps.push_back(k);
+    if (!shot.output.data.any()) continue;
+    if (tasks.redo || !exr_is_done(data_path(shot, layer, frame), setup.data_header)) setup.data.push_back(k);
   }
   if (!tasks.picture) return setup;
-  setup.picture_header = common_header(shot, colours, frame, setup);
+  setup.picture_header = common_header(shot, colours, frame, setup.scene, setup.plan);
   setup.picture_header.colour_interop = colours.interop_id(shot.colour.working.text);
   setup.picture_header.parameters = fingerprint_of_picture(shot, textures, frame, setup);
   if (shot.output.review) setup.review_parameters = fingerprint_of_review(shot, colours, setup);

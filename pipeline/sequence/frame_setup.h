@@ -26,11 +26,14 @@ struct FrameTasks {
 /// Everything that is known about a frame before any light is traced.
 struct FrameSetup {
   Scene scene;
-  Plan plan;
+  Plan plan;       // of the picture and the maps: no effects
+  Plan data_plan;  // of the data files, where the shot asks for them: what they hold beside
   ExrHeader map_header;
+  ExrHeader data_header;
   ExrHeader picture_header;
   std::string review_parameters;
-  std::vector<std::size_t> maps;  // layers whose maps are wanted and not there
+  std::vector<std::size_t> maps;  // layers whose maps are wanted and not there, ascending
+  std::vector<std::size_t> data;  // the same for their data files
   bool picture = false;           // whether picture or review are wanted and not there
 };
 

@@ -14,6 +14,10 @@ std::filesystem::path map_path(const Shot& shot, const std::string& layer, int f
   return shot.output.directory / fmt::format("{}.{}.map.{:04}.exr", shot.name, layer, frame);
 }
 
+std::filesystem::path data_path(const Shot& shot, const std::string& layer, int frame) {
+  return shot.output.directory / fmt::format("{}.{}.data.{:04}.exr", shot.name, layer, frame);
+}
+
 std::filesystem::path review_path(const Shot& shot, int frame) {
   return shot.output.directory / fmt::format("{}.review.{:04}.png", shot.name, frame);
 }

@@ -13,6 +13,7 @@ namespace lensplane {
 
 std::filesystem::path picture_path(const Shot& shot, int frame);
 std::filesystem::path map_path(const Shot& shot, const std::string& layer, int frame);
+std::filesystem::path data_path(const Shot& shot, const std::string& layer, int frame);
 std::filesystem::path review_path(const Shot& shot, int frame);
 
 }  // namespace lensplane

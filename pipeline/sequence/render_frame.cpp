@@ -10,9 +10,9 @@
 #include "pipeline/composite/compositor.h"
 #include "pipeline/composite/locator.h"
 #include "pipeline/image/png_writer.h"
+#include "pipeline/sequence/make_maps.h"
 #include "pipeline/sequence/output_paths.h"
 #include "pipeline/shot/shot_scene.h"
-#include "src/lens_map.h"
 
 namespace lensplane {
 namespace {
@@ -41,25 +41,6 @@ std::vector<Amplification> amplifications_from_text(const std::string& text) {
     amplifications.push_back({layer, known ? std::optional(value) : std::nullopt});
   }
   return amplifications;
-}
-
-void make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport& report) {
-  Scene wanted = setup.scene;
-  wanted.surfaces.clear();
-  for (const std::size_t k : setup.maps) wanted.surfaces.push_back(setup.scene.surfaces[k]);
-  const auto maps =
-      timed(report[Phase::Trace].seconds, [&] { return trace_maps(Tracer(wanted, setup.plan)); });
-  report.rays += static_cast<std::int64_t>(maps.front().width) * maps.front().height;
-  for (std::size_t i = 0; i < maps.size(); ++i) {
-    const LensMap& map = maps[i];
-    report[Phase::Trace].bytes += 3 * sizeof(float) * map.s.size();
-    const std::vector<ExrChannel> channels = {
-        {"R", map.s.data()}, {"G", map.t.data()}, {"B", map.valid.data()}};
-    report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
-      return write_exr(map_path(shot, shot.layers[setup.maps[i]].name, frame), window_of(setup.scene.camera),
-                       channels, {PixelType::Float, ExrCompression::Zip}, setup.map_header);
-    });
-  }
 }
 
 std::vector<SurfaceLook> load_looks(const Shot& shot, const Scene& scene, TextureStore& textures, int frame,
@@ -175,8 +156,9 @@ FrameReport render_frame(const Shot& shot, const ColourConfig& colours, TextureS
   report.frame = frame;
   timed(report.seconds, [&] {
     const FrameSetup setup = set_up_frame(shot, colours, textures, frame, tasks);
-    report.already_done = setup.maps.empty() && !setup.picture;
-    if (!setup.maps.empty()) make_maps(shot, frame, setup, report);
+    const bool maps_done = setup.maps.empty() && setup.data.empty();
+    report.already_done = maps_done && !setup.picture;
+    if (!maps_done) make_maps(shot, frame, setup, report);
     if (setup.picture) make_picture(shot, colours, textures, frame, setup, report);
     if (tasks.picture && !setup.picture) {
       const auto kept = read_exr_attribute(picture_path(shot, frame), "amplification");

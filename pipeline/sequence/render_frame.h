@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One frame of a shot: its maps, its picture, and the picture for review.
+// One frame of a shot: its maps and their data files, its picture, and the picture for review.
 
 #pragma once
 

@@ -13,8 +13,7 @@
 #include "pipeline/image/exr_format.h"
 #include "pipeline/shot/keyed.h"
 #include "pipeline/shot/location.h"
-#include "src/method.h"
-#include "src/scene.h"
+#include "src/plan.h"
 
 namespace lensplane {
 
@@ -106,6 +105,14 @@ struct ColourSettings {
   LocatedText view{"ACES 1.0 - SDR Video", {}, "colour.view"};
 };
 
+/// What the shot asks of the trace; see trace_at.
+struct TraceTrack {
+  Method method = Method::Planes;
+  std::optional<Law> law;  // nothing: as the tolerance needs it
+  Keyed<double> tolerance_px = Keyed<double>::constant(TraceSettings().tolerance_px);
+  Choice finite_distance = Choice::Auto;
+};
+
 /// Where the picture of where the sources are goes.
 enum class Locator { None, Beside };
 
@@ -113,6 +120,7 @@ struct OutputSettings {
   std::filesystem::path directory;
   ExrFormat image;
   std::vector<bool> maps;  // per layer
+  Effects data;            // passes of the data files, which stand beside the maps; none without maps
   bool review = true;
   Locator locator = Locator::None;
 };
@@ -125,7 +133,7 @@ struct Shot {
   CameraTrack camera;
   std::vector<LensTrack> lenses;
   std::vector<Layer> layers;
-  Method method = Method::ShinotsukaMakino;
+  TraceTrack trace;
   ColourSettings colour;
   OutputSettings output;
 };

@@ -2,9 +2,6 @@
 
 #include "pipeline/shot/shot_reader.h"
 
-#include <fmt/format.h>
-
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -15,7 +12,9 @@
 #include "pipeline/shot/camera_reader.h"
 #include "pipeline/shot/frame_range.h"
 #include "pipeline/shot/layer_reader.h"
+#include "pipeline/shot/output_reader.h"
 #include "pipeline/shot/settings.h"
+#include "pipeline/shot/trace_reader.h"
 
 namespace lensplane {
 namespace {
@@ -106,40 +105,6 @@ LensTrack read_lens(const Value& lens) {
   return track;
 }
 
-Method read_method(const std::optional<Value>& trace, const Value& root, NotYet& not_yet) {
-  constexpr std::array<std::string_view, 4> kNames = {"kishi", "shinotsuka-makino", "planes", "geodesic"};
-  constexpr const char* kHint = "; write trace: {method: shinotsuka-makino} or {method: kishi}";
-  const auto value = trace ? trace->find("method") : std::nullopt;
-  if (!value) {
-    not_yet.add(trace ? *trace : root,
-                std::string("trace.method: planes, which stands for no trace.method") + kHint);
-    return Method::ShinotsukaMakino;
-  }
-  const std::string_view name = kNames[value->choice(kNames)];
-  const auto method = method_named(name);
-  if (!method) not_yet.add(*value, std::string(name) + kHint);
-  return method.value_or(Method::ShinotsukaMakino);
-}
-
-Method read_trace(const Value& root, NotYet& not_yet) {
-  const auto trace = root.find("trace");
-  if (trace) {
-    trace->only_keys({"method", "law", "tolerance", "effects"});
-    constexpr std::array<std::string_view, 4> kLaws = {"weak", "second-order", "exact", "auto"};
-    const auto law = trace->find("law");
-    const std::size_t chosen = law ? law->choice(kLaws) : 0;
-    if (chosen == 1 || chosen == 2) not_yet.add(*law, law->text() + "; write weak or auto");
-    if (const auto tolerance = trace->find("tolerance")) read_keyed_positive(*tolerance, Dimension::Pixels);
-    if (const auto effects = trace->find("effects")) {
-      effects->only_keys({"finite_distance"});
-      constexpr std::array<std::string_view, 3> kStates = {"on", "off", "auto"};
-      const auto state = effects->find("finite_distance");
-      if (state && state->choice(kStates) == 0) not_yet.add(*state, "on; write off or auto");
-    }
-  }
-  return read_method(trace, root, not_yet);
-}
-
 ColourSettings read_colour(const Value& root) {
   ColourSettings settings;
   for (LocatedText* name : {&settings.working, &settings.display, &settings.view})
@@ -154,68 +119,6 @@ ColourSettings read_colour(const Value& root) {
   read("display", settings.display);
   read("view", settings.view);
   if (colour->find("config")) read("config", settings.config.emplace());
-  return settings;
-}
-
-ExrFormat read_format(const Value& image) {
-  image.only_keys({"type", "compression"});
-  ExrFormat format;
-  if (const auto type = image.find("type")) {
-    constexpr std::array<std::string_view, 2> kNames = {"half", "float"};
-    format.type = static_cast<PixelType>(type->choice(kNames));
-  }
-  if (const auto compression = image.find("compression")) {
-    constexpr std::array<std::string_view, 10> kNames = {"none",  "rle", "zips", "zip",  "piz",
-                                                         "pxr24", "b44", "b44a", "dwaa", "dwab"};
-    format.compression = static_cast<ExrCompression>(compression->choice(kNames));
-  }
-  return format;
-}
-
-std::vector<bool> read_maps(const Value& maps, const std::vector<std::string>& layers) {
-  if (!maps.is_list()) {
-    constexpr std::array<std::string_view, 2> kNames = {"all", "none"};
-    return std::vector<bool>(layers.size(), maps.choice(kNames) == 0);
-  }
-  std::vector<bool> chosen(layers.size(), false);
-  const std::vector<std::string_view> allowed(layers.begin(), layers.end());
-  for (const Value& item : maps.items()) chosen[item.choice(allowed)] = true;
-  return chosen;
-}
-
-void check_data(const Value& data, NotYet& not_yet) {
-  constexpr std::array<std::string_view, 7> kPasses = {"jacobian", "magnification", "delay", "direction",
-                                                       "shadow",   "bends",         "depth"};
-  for (const Value& pass : data.items()) {
-    pass.choice(kPasses);
-    not_yet.add(pass, pass.text());
-  }
-}
-
-OutputSettings read_output(const Value& root, const Shot& shot, const std::vector<std::string>& layers,
-                           NotYet& not_yet) {
-  OutputSettings settings;
-  settings.directory = "renders/" + shot.name;
-  settings.maps.assign(layers.size(), true);
-  const auto output = root.find("output");
-  if (!output) return settings;
-  output->only_keys({"directory", "image", "maps", "data", "review", "movie", "locator"});
-  if (const auto directory = output->find("directory")) settings.directory = directory->text();
-  if (const auto image = output->find("image")) settings.image = read_format(*image);
-  if (const auto maps = output->find("maps")) settings.maps = read_maps(*maps, layers);
-  if (const auto data = output->find("data")) check_data(*data, not_yet);
-  if (const auto review = output->find("review")) {
-    constexpr std::array<std::string_view, 2> kNames = {"none", "png"};
-    settings.review = review->choice(kNames) == 1;
-  }
-  if (const auto locator = output->find("locator")) {
-    constexpr std::array<std::string_view, 2> kNames = {"none", "beside"};
-    settings.locator = static_cast<Locator>(locator->choice(kNames));
-  }
-  if (const auto movie = output->find("movie")) {
-    constexpr std::array<std::string_view, 3> kNames = {"none", "mp4", "prores"};
-    if (movie->choice(kNames) != 0) not_yet.add(*movie, movie->text() + "; write none");
-  }
   return settings;
 }
 
@@ -254,9 +157,9 @@ Shot shot_from_yaml(const YamlNode& tree) {
     if (auto layer = read_layer(item, names, not_yet)) shot.layers.push_back(std::move(*layer));
   }
   shot.camera = read_camera(root.require("camera", "a map with resolution, fov, ..."), names, not_yet);
-  shot.method = read_trace(root, not_yet);
+  shot.trace = read_trace(root.find("trace"), shot.camera.projection);
   shot.colour = read_colour(root);
-  shot.output = read_output(root, shot, names.layers, not_yet);
+  shot.output = read_output(root.find("output"), shot.name, names.layers, not_yet);
   not_yet.throw_first();
   check_look_at(root, shot);
   return shot;

@@ -76,6 +76,12 @@ Scene scene_at(const Shot& shot, double frame) {
   return scene;
 }
 
+TraceSettings trace_at(const Shot& shot, double frame) {
+  const TraceTrack& trace = shot.trace;
+  return {trace.method, trace.law, value_at(trace.tolerance_px, frame), trace.finite_distance,
+          shot.output.data};
+}
+
 std::optional<Vec3> light_at(const Layer& layer, double frame) {
   const auto* sphere = std::get_if<SphereLayer>(&layer.kind);
   if (!sphere || !sphere->light) return std::nullopt;

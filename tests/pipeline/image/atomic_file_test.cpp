@@ -62,18 +62,63 @@ TEST(AtomicFile, FollowsLinksAndLeavesDevicesAlone) {
   EXPECT_TRUE(std::filesystem::is_fifo(folder / "fifo"));
 }
 
+TEST(AtomicFile, PiecesAppearOnlyWhenTheyAreCommitted) {
+  const TemporaryFolder folder;
+  write_atomically(folder / "file", std::string("old"));
+  {
+    AtomicFile file(folder / "file");
+    file.write(std::string("given up"));
+  }
+  EXPECT_EQ(contents(folder / "file"), "old");
+  EXPECT_EQ(files_in(folder.path()), 1U);
+  AtomicFile file(folder / "file");
+  file.write(std::string("one two"));
+  file.seek(4);
+  file.write(std::string("2"));
+  EXPECT_EQ(file.position(), 5U);
+  EXPECT_EQ(contents(folder / "file"), "old");
+  EXPECT_EQ(file.commit(), 7U);
+  EXPECT_EQ(contents(folder / "file"), "one 2wo");
+  EXPECT_EQ(files_in(folder.path()), 1U);
+}
+
+/// The size that files may have while the test runs: it stands for a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*old_handler_)(int);
+};
+
+TEST(AtomicFile, WriteThatFailedIsNotForgotten) {
+  const TemporaryFolder folder;
+  AtomicFile file(folder / "file");
+  Refusal first, last;
+  {
+    const FileSizeLimit limit(1000);
+    first = refusal_of([&] { file.write(std::string(100000, 'x')); });
+  }
+  last = refusal_of([&] { file.commit(); });
+  EXPECT_EQ(first.code, ExitCode::BadOutput);
+  EXPECT_EQ(last.line, first.line);
+  EXPECT_FALSE(std::filesystem::exists(folder / "file"));
+}
+
 TEST(AtomicFile, FullDiskLeavesTheOldFileAndNoOther) {
   const TemporaryFolder folder;
   write_atomically(folder / "file", std::string("old"));
-  // A limit on the size of files stands for a full disk.
-  rlimit before{};
-  ::getrlimit(RLIMIT_FSIZE, &before);
-  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{1000, before.rlim_max};
-  ::setrlimit(RLIMIT_FSIZE, &small);
+  const FileSizeLimit limit(1000);
   const Refusal refusal = refusal_of([&] { write_atomically(folder / "file", std::string(100000, 'x')); });
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, old_handler);
   EXPECT_EQ(refusal.code, ExitCode::BadOutput);
   EXPECT_EQ(contents(folder / "file"), "old");
   EXPECT_EQ(files_in(folder.path()), 1U);

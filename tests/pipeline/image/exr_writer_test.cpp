@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+
 #include "pipeline/image/image_reader.h"
 #include "tests/pipeline/expect_failure.h"
 #include "tests/pipeline/temporary_folder.h"
@@ -106,6 +109,49 @@ TEST(ExrWriter, HalfIsClampedToTheLargestHalf) {
   EXPECT_EQ(input->spec().format, OIIO::TypeDesc::HALF);
   ASSERT_TRUE(input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, back.data()));
   EXPECT_EQ(back, (std::vector<float>{65504, -65504, 0.5, 65504}));
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+TEST(ExrWriter, PiecesMakeTheSameFileAsTheWhole) {
+  const TemporaryFolder folder;
+  constexpr int kWidth = 44, kHeight = 304;
+  const auto samples = ramp(kWidth * kHeight);
+  const ExrWindow window{40, 300, 2};
+  for (const ExrCompression compression : {ExrCompression::Zip, ExrCompression::None, ExrCompression::Dwab}) {
+    for (const PixelType type : {PixelType::Float, PixelType::Half}) {
+      const ExrFormat format{type, compression};
+      const std::size_t whole =
+          write_exr(folder / "whole.exr", window, {{"R", samples.data()}}, format, example_header());
+      ExrFile file(folder / "pieces.exr", window, {"R"}, format, example_header());
+      const int rows[] = {64, 1, 128, kHeight - 193};
+      const float* from = samples.data();
+      for (const int count : rows) {
+        file.write({{"R", from}}, count);
+        from += kWidth * count;
+      }
+      EXPECT_FALSE(std::filesystem::exists(folder / "pieces.exr"));
+      EXPECT_EQ(file.commit(), whole);
+      EXPECT_EQ(std::filesystem::file_size(folder / "pieces.exr"), whole);
+      EXPECT_TRUE(bytes_of(folder / "pieces.exr") == bytes_of(folder / "whole.exr"));
+      std::filesystem::remove(folder / "pieces.exr");
+    }
+  }
+}
+
+TEST(ExrWriter, FileThatIsNotFinishedLeavesNothing) {
+  const TemporaryFolder folder;
+  const auto samples = ramp(64);
+  {
+    ExrFile file(folder / "a.exr", {8, 8, 0}, {"R"}, {PixelType::Float, ExrCompression::Zip},
+                 example_header());
+    file.write({{"R", samples.data()}}, 4);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(ExrWriter, AttributesComeBackFromWholeFilesOnly) {

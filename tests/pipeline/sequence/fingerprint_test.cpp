@@ -43,6 +43,50 @@ TEST(Fingerprint, IsTheSameForTheSameAndAnotherForEveryChange) {
   EXPECT_EQ(prints.size(), 17U);
 }
 
+TEST(Fingerprint, IsAnotherForEveryChangeOfThePlanThatMovesLight) {
+  const Scene scene = seed_fig6(100);
+  Plan plan = plan_trace(scene, Method::Planes);
+  plan.tiles = {64, 2, 2, {0, 0, 0, 0}};
+  const auto print = [&](const Plan& p) { return fingerprint_of_trace(scene, p).digest(); };
+  ASSERT_FALSE(plan.recipes.empty());
+  ASSERT_FALSE(plan.recipes[0].planes.empty());
+  std::set<std::string> prints = {print(plan), print(plan_trace(scene, Method::Geodesic))};
+  std::vector<Plan> changed(10, plan);
+  const auto recipe = [&](std::size_t i) -> Deflectors& { return changed[i].recipes[0]; };
+  recipe(0).planes[0].deflectors[0].law = Law::SecondOrder;
+  recipe(1).planes[0].deflectors[0].index += 1e-15;
+  recipe(2).planes.pop_back();
+  recipe(3).finite_distance = !plan.recipes[0].finite_distance;
+  recipe(4).outward -= 1;
+  changed[5].recipes.push_back(plan.recipes[0]);
+  changed[6].tiles.level[3] = 1;
+  changed[7].tiles.size = 32;
+  recipe(8).planes[0].deflectors[0].lens += 1;
+  changed[9].method = Method::Geodesic;
+  for (const Plan& other : changed) prints.insert(print(other));
+  EXPECT_EQ(prints.size(), 12U);
+  Plan other_effects = plan;
+  other_effects.effects.jacobian = true;
+  EXPECT_EQ(print(other_effects), print(plan));
+}
+
+TEST(Fingerprint, GeodesicCountsByItsTolerance) {
+  const Scene scene = seed_fig6(100);
+  Plan plan = plan_trace(scene, Method::Geodesic);
+  const std::string before = fingerprint_of_trace(scene, plan).digest();
+  plan.geodesic_tolerance *= 2;
+  EXPECT_NE(fingerprint_of_trace(scene, plan).digest(), before);
+}
+
+/// The passes of a data file do not change the map beside it.
+TEST(Fingerprint, EffectsChangeNoLaw) {
+  const Scene scene = seed_fig6(100);
+  TraceSettings settings;
+  const std::string without = fingerprint_of_trace(scene, plan_trace(scene, settings)).digest();
+  for (const EffectName& entry : kEffectNames) settings.effects.*entry.effect = true;
+  EXPECT_EQ(fingerprint_of_trace(scene, plan_trace(scene, settings)).digest(), without);
+}
+
 TEST(Fingerprint, TextsDoNotRunTogether) {
   EXPECT_NE(Fingerprint().add("ab").add("c").digest(), Fingerprint().add("a").add("bc").digest());
 }

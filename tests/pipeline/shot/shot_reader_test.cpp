@@ -44,7 +44,8 @@ TEST(ShotReader, ReadsTheExample) {
   EXPECT_NEAR(value_at(shot.lenses[0].m, 0), 14770.63277528, 1e-8);
   ASSERT_EQ(shot.layers.size(), 2U);
   EXPECT_EQ(value_at(std::get<SphereLayer>(shot.layers[0].kind).radius, 0), 6.371e6);
-  EXPECT_EQ(shot.method, Method::ShinotsukaMakino);
+  EXPECT_EQ(shot.trace.method, Method::ShinotsukaMakino);
+  EXPECT_FALSE(shot.output.data.any());
   EXPECT_EQ(shot.output.maps, (std::vector<bool>{true, true}));
   EXPECT_EQ(shot.colour.working.text, "ACEScg");
 }
@@ -68,6 +69,26 @@ TEST(ShotReader, ReadsWhatTheExampleLeavesOut) {
   EXPECT_EQ(shot.layers[0].image.space->text, "Raw");
   EXPECT_EQ(shot.layers[0].image.alpha, AlphaKind::Straight);
   EXPECT_EQ(shot.colour.view.text, "Raw");
+}
+
+TEST(ShotReader, DataFilesHoldWhatIsAskedForWhereThereAreMaps) {
+  const auto data = [](const std::vector<std::string>& settings) {
+    std::string names;
+    const Shot shot = example_shot(settings);
+    for (const EffectName& entry : kEffectNames) {
+      if (shot.output.data.*entry.effect) names += std::string(entry.name) + " ";
+    }
+    return names;
+  };
+  EXPECT_EQ(data({"output.data=[depth, jacobian, depth]"}), "jacobian depth ");
+  EXPECT_EQ(data({"output.data=all"}), "jacobian magnification delay direction shadow bends depth ");
+  EXPECT_EQ(data({"output.data=none"}), "");
+  EXPECT_EQ(data({"output.data=[]"}), "");
+  EXPECT_EQ(data({"output.data=[bends]", "output.maps=[earth]"}), "bends ");
+  EXPECT_EQ(data({"output.data=all", "output.maps=none"}), "");
+  EXPECT_EQ(line_for_setting("output.data=[delay, colour]"),
+            "--set output.data:1:9: output.data.1: \"colour\"; allowed: jacobian, magnification, delay, "
+            "direction, shadow, bends, depth");
 }
 
 TEST(ShotReader, FrameRatesAreRatios) {
@@ -229,7 +250,8 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
       {"trace.effects={finite_distance: maybe}", "allowed: on, off, auto"},
       {"output.maps=some", "allowed: all, none"},
       {"output.maps=[mars]", "allowed: earth, background"},
-      {"output.data=[colour]", "allowed: jacobian"},
+      {"output.data=[colour]", "allowed: jacobian, magnification, delay, direction, shadow, bends, depth"},
+      {"output.data=some", "allowed: all, none"},
       {"output.image={type: double}", "allowed: half, float"},
       {"output.image={compression: zap}", "allowed: none, rle"},
       {"output.review=jpeg", "allowed: none, png"},
@@ -261,12 +283,6 @@ TEST(ShotReader, SaysWhatIsNotAvailableYet) {
        "layers.r.type: not available yet: ring"},
       {"layers.background={name: p, type: povray, scene: a.pov, as: plate, distance: 2e9 m}",
        "layers.p.type: not available yet: povray"},
-      {"trace.method=planes", "trace.method: not available yet: planes"},
-      {"trace.method=geodesic", "trace.method: not available yet: geodesic"},
-      {"trace={}", "trace: not available yet: trace.method: planes"},
-      {"trace.law=exact", "trace.law: not available yet: exact"},
-      {"trace.effects={finite_distance: on}", "trace.effects.finite_distance: not available yet"},
-      {"output.data=[jacobian]", "output.data.0: not available yet: jacobian"},
       {"output.movie=mp4", "output.movie: not available yet: mp4"},
   };
   for (const auto& [setting, expected] : later) {
@@ -274,8 +290,8 @@ TEST(ShotReader, SaysWhatIsNotAvailableYet) {
     EXPECT_THAT(refusal.line, HasSubstr(expected)) << setting;
     EXPECT_EQ(refusal.code, ExitCode::BadShot);
   }
-  EXPECT_THAT(line_for("  method: shinotsuka-makino", "  method: planes"),
-              HasSubstr("s.yaml:22:11: trace.method: not"));
+  EXPECT_THAT(line_for("type: plate", "type: plate\n    distance: 2e9 m"),
+              HasSubstr("s.yaml:20:15: layers.background.distance: not"));
 }
 
 TEST(ShotReader, WhatIsNotAvailableYetIsStillChecked) {
@@ -295,7 +311,7 @@ TEST(ShotReader, WhatIsNotAvailableYetIsStillChecked) {
   EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, as: plate}"),
               HasSubstr("scene: missing"));
   // A mistake comes before what is not available.
-  const Refusal refusal = refusal_of([&] { example_shot({"trace.method=planes", "output.review=jpeg"}); });
+  const Refusal refusal = refusal_of([&] { example_shot({"output.movie=mp4", "output.review=jpeg"}); });
   EXPECT_THAT(refusal.line, HasSubstr("allowed: none, png"));
 }
 

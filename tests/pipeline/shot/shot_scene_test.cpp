@@ -43,6 +43,20 @@ TEST(ShotScene, CameraHasTheProjectionOfTheShot) {
   EXPECT_EQ(scene_at(latlong, 1001).camera.projection, Projection::LatLong);
 }
 
+TEST(ShotScene, TraceKeepsToTheShotAtItsFrame) {
+  const Shot shot =
+      example_shot({"trace={method: planes, law: second-order, tolerance: {keys: {1001: 0.1 px, 1003: "
+                    "0.3 px}}, effects: {finite_distance: on}}",
+                    "output.data=[delay]"});
+  const TraceSettings settings = trace_at(shot, 1002);
+  EXPECT_EQ(settings.method, Method::Planes);
+  EXPECT_EQ(settings.law, Law::SecondOrder);
+  EXPECT_DOUBLE_EQ(settings.tolerance_px, 0.2);
+  EXPECT_EQ(settings.finite_distance, Choice::On);
+  EXPECT_TRUE(settings.effects.delay);
+  EXPECT_FALSE(settings.effects.derivatives());
+}
+
 TEST(ShotScene, CameraLooksAtPointsLensesAndLayers) {
   const auto forward = [](const std::string& target) {
     return -scene_at(example_shot({"camera.position=[0 m, 3e8 m, 0 m]", "camera.look_at=" + target}), 1001)

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A frame and its plan, for those who print it.
+
+#pragma once
+
+#include <vector>
+
+#include "src/plan.h"
+
+namespace lensplane {
+
+struct PlannedFrame {
+  int frame;
+  Scene scene;
+  TraceSettings settings;
+  Plan plan;
+};
+
+/// What becomes of every lens, by any method. The paper's methods bend by all lenses, with the weak law, and
+/// the geodesic method curves light round all of them: neither bounds how far each moves what is seen.
+std::vector<LensPlan> lenses_of(const PlannedFrame& planned);
+
+/// Metres from the camera to a lens.
+double distance_of(const PlannedFrame& planned, const LensPlan& lens);
+
+/// The share of the film, overscan included, that each recipe of the plan traces.
+std::vector<double> shares_of(const PlannedFrame& planned);
+
+}  // namespace lensplane

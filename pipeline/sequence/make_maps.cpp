@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/sequence/make_maps.h"
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+
+#include "pipeline/image/exr_writer.h"
+#include "pipeline/sequence/output_paths.h"
+#include "src/lens_map.h"
+
+namespace lensplane {
+namespace {
+
+constexpr ExrFormat kFormat = {PixelType::Float, ExrCompression::Zip};
+
+std::vector<ExrChannel> map_channels(const LensMap& map) {
+  return {{"R", map.s.data()}, {"G", map.t.data()}, {"B", map.valid.data()}};
+}
+
+std::vector<ExrChannel> data_channels(const LensMap& map) {
+  std::vector<ExrChannel> channels;
+  for (const Pass& pass : map.passes) channels.push_back({std::string(pass.channel), pass.values.data()});
+  return channels;
+}
+
+/// A file in the making.
+struct LayerFile {
+  std::size_t surface;  // of the maps that are traced
+  std::vector<ExrChannel> (*channels)(const LensMap&);
+  std::filesystem::path path;
+  const ExrHeader* header;
+  std::unique_ptr<ExrFile> file = nullptr;  // opened with the first rows: they say which channels there are
+
+  void write(const std::vector<LensMap>& maps, const ExrWindow& window) {
+    const std::vector<ExrChannel> samples = channels(maps[surface]);
+    if (!file) {
+      std::vector<std::string> names;
+      for (const ExrChannel& channel : samples) names.push_back(channel.name);
+      file = std::make_unique<ExrFile>(path, window, names, kFormat, *header);
+    }
+    file->write(samples, maps[surface].height);
+  }
+};
+
+/// The layers that any file is wanted of, in their order.
+std::vector<std::size_t> layers_of(const FrameSetup& setup) {
+  std::vector<std::size_t> layers;
+  std::set_union(setup.maps.begin(), setup.maps.end(), setup.data.begin(), setup.data.end(),
+                 std::back_inserter(layers));
+  return layers;
+}
+
+std::vector<LayerFile> files_of(const Shot& shot, int frame, const FrameSetup& setup,
+                                const std::vector<std::size_t>& layers) {
+  std::vector<LayerFile> files;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const std::string& name = shot.layers[layers[i]].name;
+    const auto wanted = [&](const std::vector<std::size_t>& list) {
+      return std::binary_search(list.begin(), list.end(), layers[i]);
+    };
+    if (wanted(setup.maps))
+      files.push_back({i, map_channels, map_path(shot, name, frame), &setup.map_header});
+    if (wanted(setup.data))
+      files.push_back({i, data_channels, data_path(shot, name, frame), &setup.data_header});
+  }
+  return files;
+}
+
+std::size_t bytes_of(const std::vector<LensMap>& maps) {
+  std::size_t bytes = 0;
+  for (const LensMap& map : maps) bytes += (3 + map.passes.size()) * map.s.size() * sizeof(float);
+  return bytes;
+}
+
+/// Whole rows of tiles that fit into a band, given what a row of pixels takes.
+int rows_per_band(std::size_t bytes_per_row) {
+  constexpr int kTile = TileLevels{}.size;
+  constexpr std::size_t kMost = 1024;  // rows of tiles
+  return kTile * static_cast<int>(std::clamp<std::size_t>(kBandBytes / (kTile * bytes_per_row), 1, kMost));
+}
+
+}  // namespace
+
+void make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport& report) {
+  const std::vector<std::size_t> layers = layers_of(setup);
+  Scene wanted = setup.scene;
+  wanted.surfaces.clear();
+  for (const std::size_t k : layers) wanted.surfaces.push_back(setup.scene.surfaces[k]);
+  const Tracer tracer(wanted, setup.data.empty() ? setup.plan : setup.data_plan);
+  const Camera& camera = setup.scene.camera;
+  const ExrWindow window{camera.width, camera.height, camera.overscan};
+  std::vector<LayerFile> files = files_of(shot, frame, setup, layers);
+
+  PhaseCost& tracing = report[Phase::Trace];
+  PhaseCost& writing = report[Phase::Write];
+  const int height = camera.full_height();
+  int band = TileLevels{}.size;  // one row of tiles, which says how many fit into a band
+  for (int row = 0; row < height;) {
+    const RowRange rows{row, std::min(height, row + band)};
+    const auto maps = timed(tracing.seconds, [&] { return trace_maps(tracer, rows); });
+    timed(writing.seconds, [&] {
+      for (LayerFile& file : files) file.write(maps, window);
+    });
+    tracing.bytes += bytes_of(maps);
+    band = rows_per_band(bytes_of(maps) / static_cast<std::size_t>(rows.end - rows.begin));
+    row = rows.end;
+  }
+  timed(writing.seconds, [&] {
+    for (LayerFile& file : files) writing.bytes += file.file->commit();
+  });
+  report.rays += static_cast<std::int64_t>(camera.full_width()) * height;
+}
+
+}  // namespace lensplane

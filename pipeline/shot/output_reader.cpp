@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/shot/output_reader.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lensplane {
+namespace {
+
+ExrFormat read_format(const Value& image) {
+  image.only_keys({"type", "compression"});
+  ExrFormat format;
+  if (const auto type = image.find("type")) {
+    constexpr std::array<std::string_view, 2> kNames = {"half", "float"};
+    format.type = static_cast<PixelType>(type->choice(kNames));
+  }
+  if (const auto compression = image.find("compression")) {
+    constexpr std::array<std::string_view, 10> kNames = {"none",  "rle", "zips", "zip",  "piz",
+                                                         "pxr24", "b44", "b44a", "dwaa", "dwab"};
+    format.compression = static_cast<ExrCompression>(compression->choice(kNames));
+  }
+  return format;
+}
+
+/// Which of `allowed` are chosen: all, none, or those in a list.
+std::vector<bool> read_chosen(const Value& value, const std::vector<std::string_view>& allowed) {
+  if (!value.is_list()) {
+    constexpr std::array<std::string_view, 2> kNames = {"all", "none"};
+    return std::vector<bool>(allowed.size(), value.choice(kNames) == 0);
+  }
+  std::vector<bool> chosen(allowed.size(), false);
+  for (const Value& item : value.items()) chosen[item.choice(allowed)] = true;
+  return chosen;
+}
+
+std::vector<bool> read_maps(const Value& maps, const std::vector<std::string>& layers) {
+  return read_chosen(maps, {layers.begin(), layers.end()});
+}
+
+Effects read_data(const Value& data) {
+  std::vector<std::string_view> names;
+  for (const EffectName& entry : kEffectNames) names.push_back(entry.name);
+  const std::vector<bool> chosen = read_chosen(data, names);
+  Effects effects;
+  for (std::size_t i = 0; i < kEffectNames.size(); ++i) effects.*kEffectNames[i].effect = chosen[i];
+  return effects;
+}
+
+}  // namespace
+
+OutputSettings read_output(const std::optional<Value>& output, const std::string& name,
+                           const std::vector<std::string>& layers, NotYet& not_yet) {
+  OutputSettings settings;
+  settings.directory = "renders/" + name;
+  settings.maps.assign(layers.size(), true);
+  if (!output) return settings;
+  output->only_keys({"directory", "image", "maps", "data", "review", "movie", "locator"});
+  if (const auto directory = output->find("directory")) settings.directory = directory->text();
+  if (const auto image = output->find("image")) settings.image = read_format(*image);
+  if (const auto maps = output->find("maps")) settings.maps = read_maps(*maps, layers);
+  if (const auto data = output->find("data")) settings.data = read_data(*data);
+  if (std::find(settings.maps.begin(), settings.maps.end(), true) == settings.maps.end()) settings.data = {};
+  if (const auto review = output->find("review")) {
+    constexpr std::array<std::string_view, 2> kNames = {"none", "png"};
+    settings.review = review->choice(kNames) == 1;
+  }
+  if (const auto locator = output->find("locator")) {
+    constexpr std::array<std::string_view, 2> kNames = {"none", "beside"};
+    settings.locator = static_cast<Locator>(locator->choice(kNames));
+  }
+  if (const auto movie = output->find("movie")) {
+    constexpr std::array<std::string_view, 3> kNames = {"none", "mp4", "prores"};
+    if (movie->choice(kNames) != 0) not_yet.add(*movie, movie->text() + "; write none");
+  }
+  return settings;
+}
+
+}  // namespace lensplane
