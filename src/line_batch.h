@@ -12,7 +12,7 @@ namespace lensplane {
 /// A batch of rays on their way.
 template <class Number>
 struct LineBatch {
-  VectorLane<Number> start;          // metres, camera axes
+  VectorLane<Number> start;          // metres, camera axes; its derivatives count across the ray only
   VectorLane<Number> direction;      // unit vectors
   VectorLane<double> first;          // their directions at the camera, where there is no flat screen
   Lane<double> path;                 // metres along the ray from the camera to `start`, when it is asked for

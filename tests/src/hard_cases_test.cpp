@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <limits>
-#include <limits>
 #include <random>
 
 #include "src/constants.h"
