@@ -9,6 +9,7 @@
 
 #include "src/arrival_time.h"
 #include "src/constants.h"
+#include "src/finite_shift.h"
 
 namespace lensplane {
 namespace {
@@ -49,19 +50,26 @@ double magnification_of(double seen, double there) {
   return std::clamp(mu, -kLargestMagnification, kLargestMagnification);
 }
 
+/// The segment number `i` of the path, as finite distances move it near the sphere. A chord, between planes'
+/// foot points, joins its neighbours.
+template <class Number>
+RaySegment<Number> shifted_segment(const Deflectors& finite, const RayPath<Number>& path, std::size_t i,
+                                   const Sphere& sphere) {
+  if (i % 2 == 0) return shifted(finite, path.segments[i], sphere.centre);
+  return chord_between(finite, path.segments[i - 1], path.segments[i + 1]);
+}
+
 template <class Number>
 SurfaceHit<Number> meet_sphere(const Sphere& sphere, const RayPath<Number>& path, const Deflectors* finite) {
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
-    const RaySegment<Number>& segment = path.segments[i];
-    Vector<Number> start = segment.start;
-    if (finite) start += finite_shift(*finite, segment.start, segment.direction, sphere.centre);
-    const Number entry = sphere_entry(start, segment.direction, sphere.centre, sphere.radius);
+    const RaySegment<Number> segment = finite ? shifted_segment(*finite, path, i, sphere) : path.segments[i];
+    const Number entry = sphere_entry(segment.start, segment.direction, sphere.centre, sphere.radius);
     if (!(value_of(entry) <= value_of(segment.length)) || !(value_of(entry) < kInfinity)) continue;
-    const Vector<Number> point = start + segment.direction * entry;
+    const Vector<Number> point = segment.start + segment.direction * entry;
     SurfaceHit<Number> hit = meet_sphere_at(sphere, path.segments.front().direction, point);
     hit.distance = value_of(path.lengths[i]) + value_of(entry);
     hit.direction = value_of(segment.direction);
-    hit.bends = static_cast<int>(i);
+    hit.bends = segment.bends;
     std::size_t passed = 0;
     while (passed < path.passages.size() && value_of(path.passages[passed].path) <= hit.distance) ++passed;
     hit.delay = (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance, passed);
@@ -168,32 +176,6 @@ SurfaceHit<Number> meet_sphere_at(const Sphere& sphere, const Vector<Number>& fi
 }
 
 template <class Number>
-Vector<Number> finite_shift(const Deflectors& deflectors, const Vector<Number>& start,
-                            const Vector<Number>& direction, const Vec3& point) {
-  // Integrating d^2y/dz^2 = -2 m b/r^3 from the camera to z leaves this beside the straight stretches.
-  const double beyond_start = std::max(0.0, (point - value_of(start)).dot(value_of(direction)));
-  Vector<Number> shift = constant<Number>(Vec3(0));
-  for (const DeflectorPlane& plane : deflectors.planes) {
-    for (const Deflector& deflector : plane.deflectors) {
-      const Vector<Number> to_mass = constant<Number>(deflector.position) - start;
-      const Number along = to_mass.dot(direction);
-      const Vector<Number> across = to_mass - direction * along;
-      const Number b2 = across.dot(across);
-      if (value_of(b2) == 0.0) continue;
-      const Number z = beyond_start - along;  // past the closest approach
-      const Number r = sqrt(z * z + b2);
-      const Number z_camera = constant<Number>(deflector.position).dot(direction);
-      const Number r_camera = sqrt(z_camera * z_camera + b2);
-      const bool passed = value_of(z) >= 0.0 || value_of(z_camera) < 0.0;
-      const Number share = passed ? 1.0 / (r + z) : (r + (z * z_camera - b2) / r_camera) / b2;
-      if (value_of(z) < 0.0 && passed) continue;
-      shift += across * (2.0 * deflector.m * share);
-    }
-  }
-  return shift;
-}
-
-template <class Number>
 SurfaceHit<Number> meet(const Surface& surface, const Camera& camera, FilmPosition film,
                         const RayPath<Number>& path, const Deflectors* finite) {
   if (const auto* sphere = std::get_if<Sphere>(&surface)) return meet_sphere(*sphere, path, finite);
@@ -233,8 +215,6 @@ template SurfaceHit<double> meet_sky(const Camera&, const Vec3&, const Vec3&);
 template SurfaceHit<Dual> meet_sky(const Camera&, const DualVec3&, const DualVec3&);
 template SurfaceHit<double> meet_sphere_at(const Sphere&, const Vec3&, const Vec3&);
 template SurfaceHit<Dual> meet_sphere_at(const Sphere&, const DualVec3&, const DualVec3&);
-template Vec3 finite_shift(const Deflectors&, const Vec3&, const Vec3&, const Vec3&);
-template DualVec3 finite_shift(const Deflectors&, const DualVec3&, const DualVec3&, const Vec3&);
 template SurfaceHit<double> meet(const Surface&, const Camera&, FilmPosition, const RayPath<double>&,
                                  const Deflectors*);
 template SurfaceHit<Dual> meet(const Surface&, const Camera&, FilmPosition, const RayPath<Dual>&,

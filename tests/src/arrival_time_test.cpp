@@ -17,7 +17,8 @@ namespace lensplane {
 namespace {
 
 const std::vector<Lens> kOneMass = {{1, {0, 0, -1}}};
-const std::vector<Lens> kMasses = {{1, {0.1, 0.2, -1}}, {2, {-0.3, 0.5, -2}}, {0.5, {1, 0.5, 0.1}}, {1, {0.2, 0.2, 1.5}}};
+const std::vector<Lens> kMasses = {
+    {1, {0.1, 0.2, -1}}, {2, {-0.3, 0.5, -2}}, {0.5, {1, 0.5, 0.1}}, {1, {0.2, 0.2, 1.5}}};
 constexpr double kAngles[] = {0.05, 0.3, 1.0, 1.5, 1.7, 2.5, 3.1};
 
 std::vector<Lens> times(std::vector<Lens> lenses, double k) {
@@ -36,8 +37,10 @@ double apart(const std::vector<Lens>& lenses, double angle) {
 
 TEST(ArrivalTime, OfOneMassIsThatOfCurvedRaysToFirstOrder) {
   for (const double angle : kAngles) {
-    std::printf("%g: %g %g %g\n", angle, apart(times(kOneMass, 1e-3), angle) / 1e-6, apart(times(kOneMass, 1e-4), angle) / 1e-8, apart(times(kOneMass, 1e-5), angle) / 1e-10);
-    std::printf("  %g: %g %g %g\n", angle, apart(times(kMasses, 1e-3), angle) / 1e-6, apart(times(kMasses, 1e-4), angle) / 1e-8, apart(times(kMasses, 1e-5), angle) / 1e-10);
+    std::printf("%g: %g %g %g\n", angle, apart(times(kOneMass, 1e-3), angle) / 1e-6,
+                apart(times(kOneMass, 1e-4), angle) / 1e-8, apart(times(kOneMass, 1e-5), angle) / 1e-10);
+    std::printf("  %g: %g %g %g\n", angle, apart(times(kMasses, 1e-3), angle) / 1e-6,
+                apart(times(kMasses, 1e-4), angle) / 1e-8, apart(times(kMasses, 1e-5), angle) / 1e-10);
   }
 }
 
@@ -48,17 +51,19 @@ double apart_on_ball(const std::vector<Lens>& lenses, const Vec3& centre, double
   const Ball ball{centre, radius};
   const auto curved = trace_geodesic<double>(masses, Vec3(0), direction, 1e-16, {&ball, 1}).hits[0];
   const Deflectors d = round_deflectors(lenses, Law::Exact);
-  const auto ours = meet(Sphere{centre, radius, {}}, Camera{}, {0, 0}, march_planes<double>(d, direction), &d);
+  const auto ours =
+      meet(Sphere{centre, radius, {}}, Camera{}, {0, 0}, march_planes<double>(d, direction), &d);
   EXPECT_TRUE(curved.hit);
   EXPECT_EQ(ours.outcome, Outcome::Hit);
   const Vec3 n = curved.point - centre;
   auto st = st_from_sphere_normal(n);
-  std::printf("   st %g %g dist %g delay %g\n", ours.st.s - st.s, ours.st.t - st.t, ours.distance - curved.length, ours.delay - curved.delay);
+  std::printf("   st %g %g dist %g delay %g\n", ours.st.s - st.s, ours.st.t - st.t,
+              ours.distance - curved.length, ours.delay - curved.delay);
   return ours.delay - curved.delay;
 }
 TEST(ArrivalTime, Ball) {
   for (double m : {1e-3, 1e-4, 1e-5}) {
-  std::printf("m %g\n", m);
+    std::printf("m %g\n", m);
     apart_on_ball(times(kOneMass, m), {0.2, 0.3, -3}, 1, {0.1, 0.1, -1});
     apart_on_ball(times(kOneMass, m), {0.2, 0.3, -1}, 0.5, {0.2, 0.3, -1});
     apart_on_ball(times(kOneMass, m), {0.2, 0.3, -0.6}, 0.2, {0.2, 0.3, -0.6});
