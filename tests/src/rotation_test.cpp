@@ -51,8 +51,8 @@ Dual dual_at(double q) {
   return {q, 1, 2};
 }
 
-/// The first term of sin(A)/A that short_turn() leaves out, A^8/9!, is 1e-16 at the largest short turn; its slope
-/// there is this share of 1/6.
+/// The first term of sin(A)/A that short_turn() leaves out, A^8/9!, is 1e-16 at the largest short turn; its
+/// slope there is this share of 1/6.
 constexpr double kShortSlopeError = 1.1e-12;
 
 TEST(Rotation, ShortTurnsAreThoseOfTheLibraryToRounding) {
@@ -102,7 +102,7 @@ TEST(NearTurn, QuarterTurnsChangeNoSign) {
 TEST(NearTurn, IsTheRotationOfTheReference) {
   for (double a = 0; a < kLongestTurn; a += 1.3e-3) {
     // A itself is rounded: that costs what A has digits before the point.
-    expect_turn(near_turn(dual_at(a * a)), a * a, 2 * kNearTurnError + 2e-16 * a, kShortSlopeError);
+    expect_turn(near_turn(dual_at(a * a)), a * a, 2 * kNearTurnError + 2e-16 * a, kNearSlopeError);
   }
 }
 
@@ -112,8 +112,8 @@ TEST(NearTurn, DoesNotCareOnWhichSideOfTheShortTurnsItIs) {
   EXPECT_NEAR(below.cosine.v, above.cosine.v, kNearTurnError);
   EXPECT_NEAR(below.sine.v, above.sine.v, kNearTurnError);
   EXPECT_NEAR(below.versine.v, above.versine.v, kNearTurnError);
-  EXPECT_NEAR(below.sine.dx, above.sine.dx, kShortSlopeError / 6);
-  EXPECT_NEAR(below.versine.dx, above.versine.dx, kShortSlopeError / 24);
+  EXPECT_NEAR(below.sine.dx, above.sine.dx, kNearSlopeError / 6);
+  EXPECT_NEAR(below.versine.dx, above.versine.dx, kNearSlopeError / 24);
 }
 
 }  // namespace
