@@ -79,7 +79,7 @@ if __name__ == "__main__":
     print(f"// near: worst relative error {nstr(error, 2)}")
     show("kNearA", a)
     show("kNearB", b)
-    far, error = fit_far(5, 8)
+    far, error = fit_far(15, 11)
     print(f"// far: worst relative error {nstr(error, 2)}")
     show("kFar", far)
     critical_ratio = 3 * sqrt(mpf(3))

@@ -9,9 +9,6 @@
 
 #pragma once
 
-#include <bit>
-#include <cstdint>
-
 #include "src/dual.h"
 
 namespace lensplane {
@@ -22,11 +19,7 @@ inline constexpr int kBatchSize = 128;
 using BatchArray = double[kBatchSize];
 
 /// Is any of a batch's flags (0 or 1) set? Without an early end, which would be slower.
-inline bool any_of(const BatchArray& flags) {
-  std::uint64_t bits = 0;
-  for (const double flag : flags) bits |= std::bit_cast<std::uint64_t>(flag);
-  return bits != 0;
-}
+bool any_of(const BatchArray& flags);
 
 /// A number of either kind for each ray of a batch.
 template <class Number>

@@ -6,7 +6,7 @@
 // digits:
 //
 //   near:  alpha = x A(x) - B(x) ln(1 - x)   everywhere;      worst relative error of the fit 8.2e-18
-//   far:   alpha = x F(x)                    x <= kFarRatio;                                  2.3e-16
+//   far:   alpha = x F(x)                    x <= kFarRatio;                                  1.1e-16
 //
 // A and B are written in powers of x - 1/2: their terms fall fast, and no digits are lost to cancellation.
 //
@@ -38,12 +38,13 @@ inline constexpr std::array kNearB = {1.2003268396374975,   -0.5943109784779983,
                                       0.48873744791833856,  -0.24791030898825245,  0.08496856086735607,
                                       -0.01781872074377105, 0.0019250059462176115, -7.229447423117849e-05};
 
-/// Up to which x = b_c/b the far form holds: from b = 104 m on.
-inline constexpr double kFarRatio = 0.05;
+/// Up to which x = b_c/b the far form holds: from b = 34.6 m on.
+inline constexpr double kFarRatio = 0.15;
 
-inline constexpr std::array kFar = {0.769800358919501,   0.43633231299886127, 0.3041186601735099,
-                                    0.23331660802324802, 0.1892274446355939,  0.15922899642123095,
-                                    0.1353255896902557,  0.1445840486928459};
+inline constexpr std::array kFar = {0.769800358919501,   0.4363323129984985,  0.3041186603406713,
+                                    0.23331658106166353, 0.18922955178466774, 0.15913982289952705,
+                                    0.1374086316634572,  0.11952094023838697, 0.11719092488268323,
+                                    0.05309003291238731, 0.19712168977683409};
 
 /// Relative errors: of alpha = x F(x) and of its derivative for x <= kFarRatio, and of log_of_share.
 /// near_exact's is kExactLawError.

@@ -2,8 +2,8 @@
 
 #include "src/line_batch.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 
 namespace lensplane {
@@ -42,11 +42,12 @@ void start_panorama(const Camera& camera, const BatchArray& x, const BatchArray&
 
 template <class Number>
 void start_lines(const Camera& camera, const BatchArray& x, const BatchArray& y, LineBatch<Number>& rays) {
-  rays.start = {};
-  std::fill_n(rays.path.v, kBatchSize, 0.0);
-  std::fill_n(rays.shapiro.v, kBatchSize, 0.0);
-  std::fill_n(rays.irregular, kBatchSize, 0.0);
-  std::fill_n(rays.captured, kBatchSize, 0.0);
+  // All of it numbers: no bit set is zero.
+  std::memset(&rays.start, 0, sizeof rays.start);
+  std::memset(&rays.path, 0, sizeof rays.path);
+  std::memset(&rays.shapiro, 0, sizeof rays.shapiro);
+  std::memset(rays.irregular, 0, sizeof rays.irregular);
+  std::memset(rays.captured, 0, sizeof rays.captured);
   if (camera.projection == Projection::Perspective) {
     start_perspective(camera, x, y, rays);
   } else {

@@ -20,7 +20,7 @@ inline constexpr double kNearTurnError = 4e-16;
 
 /// Error of the slopes by q, as a share of their size at A = 0: just above kShortTurn differences of numbers
 /// near 1 are divided by q.
-inline constexpr double kNearSlopeError = 2e-12;
+inline constexpr double kNearSlopeError = 2e-13;
 
 struct SineAndCosine {
   double sine;
@@ -79,8 +79,8 @@ template <class Number>
   const double sine = is_short ? small.sine : whole.sine * (a * per_q);
   const double versine = is_short ? small.versine : 2.0 * half.sine * half.sine * per_q;
   // Slopes by q: for short turns from the series, dS/dq = -1/6 + q/60 ..., dE/dq = -1/24 + q/360 ...
-  constexpr std::array kSineSlope = {-1.0 / 6.0, 2.0 / 120.0, -3.0 / 5040.0};
-  constexpr std::array kVersineSlope = {-1.0 / 24.0, 2.0 / 720.0, -3.0 / 40320.0};
+  constexpr std::array kSineSlope = {-1.0 / 6.0, 2.0 / 120.0, -3.0 / 5040.0, 4.0 / 362880.0};
+  constexpr std::array kVersineSlope = {-1.0 / 24.0, 2.0 / 720.0, -3.0 / 40320.0, 4.0 / 3628800.0};
   const double sine_slope = is_short ? polynomial(kSineSlope, q0).value : 0.5 * (cosine - sine) * per_q;
   const double versine_slope =
       is_short ? polynomial(kVersineSlope, q0).value : (0.5 * sine - versine) * per_q;

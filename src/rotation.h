@@ -21,13 +21,13 @@ struct Turn {
 };
 
 /// Largest angle of short_turn, in radians; its remainders are below 1e-16.
-inline constexpr double kShortTurn = 0.05;
+inline constexpr double kShortTurn = 0.15;
 
 /// By the Taylor series, without a branch. 0 <= q <= kShortTurn^2.
 template <class Number>
 [[gnu::always_inline]] inline Turn<Number> short_turn(const Number& q) {
-  constexpr std::array kSine = {1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0};
-  constexpr std::array kVersine = {1.0 / 2.0, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40320.0};
+  constexpr std::array kSine = {1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362880.0};
+  constexpr std::array kVersine = {1.0 / 2.0, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40320.0, 1.0 / 3628800.0};
   const ValueAndSlope s = polynomial(kSine, value_of(q));
   const ValueAndSlope e = polynomial(kVersine, value_of(q));
   const Number versine = chained(q, e.value, e.slope);

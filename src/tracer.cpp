@@ -72,9 +72,10 @@ LineBatch<Number> chords_between(const Sight& sight, int bends, const LineBatch<
   return chord;
 }
 
-/// Traces the batch through the planes of `deflectors`; returns which rays it leaves to others.
+/// Traces the batch through the planes of `deflectors`. True when it leaves rays to others, which `irregular`
+/// then names.
 template <class Number>
-void march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach reach, TraceBatch& batch,
+bool march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach reach, TraceBatch& batch,
                         BatchArray& irregular) {
   LineBatch<Number> rays, before;
   Ends ends, chord_ends;
@@ -103,6 +104,7 @@ void march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
   for (int i = 0; (sight.effects.direction || sight.effects.bends) && i < kBatchSize; ++i) {
     irregular[i] = rays.captured[i] != 0.0 ? 1.0 : irregular[i];
   }
+  return any_of(irregular);
 }
 
 }  // namespace
@@ -162,12 +164,10 @@ void Tracer::trace_by_recipe(std::size_t recipe, Reach reach, TraceBatch& batch)
   const Deflectors& deflectors = plan_.recipes[recipe];
   const Sight view = sight(deflectors.finite_distance ? &deflectors : nullptr);
   alignas(64) BatchArray irregular;
-  if (plan_.effects.derivatives()) {
-    march_planes_batch<Dual>(view, deflectors, reach, batch, irregular);
-  } else {
-    march_planes_batch<double>(view, deflectors, reach, batch, irregular);
-  }
-  if (!any_of(irregular)) return;
+  const bool any = plan_.effects.derivatives()
+                       ? march_planes_batch<Dual>(view, deflectors, reach, batch, irregular)
+                       : march_planes_batch<double>(view, deflectors, reach, batch, irregular);
+  if (!any) return;
   if (reach == Reach::Far) {
     PickedRays rays = picked(view, batch, [&](int i) { return irregular[i] != 0.0; });
     trace_by_recipe(recipe, Reach::Near, rays.batch);
