@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "src/constants.h"
+#include "src/finite_shift.h"
 
 namespace lensplane {
 namespace {
@@ -141,8 +142,9 @@ void see_spheres(const Sight& sight, const Ends& ends, int bends, LineBatch<Numb
     if (!sphere) continue;
     VectorLane<Number> start = rays.start;
     for (int i = 0; sight.finite && i < kBatchSize; ++i) {
+      const Vector<Number> line = start.get(i), direction = rays.direction.get(i);
       start.set(
-          i, start.get(i) + finite_shift(*sight.finite, start.get(i), rays.direction.get(i), sphere->centre));
+          i, line + finite_shift(*sight.finite, static_cast<std::size_t>(bends), line, direction, *sphere));
     }
     enter_sphere(*sphere, start, rays.direction, ends, entry);
     SurfaceBatch& surface = batch.surfaces[k];

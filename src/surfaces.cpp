@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include "src/arrival_time.h"
 #include "src/constants.h"
+#include "src/finite_shift.h"
 
 namespace lensplane {
 namespace {
@@ -49,12 +51,39 @@ double magnification_of(double seen, double there) {
   return std::clamp(mu, -kLargestMagnification, kLargestMagnification);
 }
 
+/// Shapiro delay of the masses that the light from a point `travelled` metres along the path, on its stretch
+/// number `i`, does not pass.
+template <class Number>
+double delay_by_masses_ahead(const Deflectors& deflectors, const RayPath<Number>& path, std::size_t i,
+                             double travelled) {
+  const Vec3 start = value_of(path.segments[i].start), direction = value_of(path.segments[i].direction);
+  double delay = 0.0;
+  for (const DeflectorPlane& plane : deflectors.planes) {
+    for (const Deflector& deflector : plane.deflectors) {
+      const bool passed = std::any_of(path.passages.begin(), path.passages.end(), [&](const auto& p) {
+        return p.lens == deflector.lens && value_of(p.path) <= travelled;
+      });
+      if (passed) continue;
+      const Vec3 to_mass = deflector.position - start;
+      const double along = to_mass.dot(direction);
+      const double z1 = value_of(path.lengths[i]) + along;
+      delay += 2.0 * deflector.m *
+               shapiro_logarithm_between(z1, travelled - z1, length(to_mass - direction * along));
+    }
+  }
+  return delay;
+}
+
 template <class Number>
 SurfaceHit<Number> meet_sphere(const Sphere& sphere, const RayPath<Number>& path, const Deflectors* finite) {
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
     const RaySegment<Number>& segment = path.segments[i];
     Vector<Number> start = segment.start;
-    if (finite) start += finite_shift(*finite, segment.start, segment.direction, sphere.centre);
+    if (finite) {
+      const bool back = value_of(segment.direction).dot(value_of(path.segments.front().direction)) < 0.0;
+      const auto bent = back ? std::nullopt : std::optional(i);
+      start += finite_shift(*finite, bent, segment.start, segment.direction, sphere);
+    }
     const Number entry = sphere_entry(start, segment.direction, sphere.centre, sphere.radius);
     if (!(value_of(entry) <= value_of(segment.length)) || !(value_of(entry) < kInfinity)) continue;
     const Vector<Number> point = start + segment.direction * entry;
@@ -62,9 +91,8 @@ SurfaceHit<Number> meet_sphere(const Sphere& sphere, const RayPath<Number>& path
     hit.distance = value_of(path.lengths[i]) + value_of(entry);
     hit.direction = value_of(segment.direction);
     hit.bends = static_cast<int>(i);
-    std::size_t passed = 0;
-    while (passed < path.passages.size() && value_of(path.passages[passed].path) <= hit.distance) ++passed;
-    hit.delay = (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance, passed);
+    hit.delay = (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance);
+    if (finite) hit.delay += delay_by_masses_ahead(*finite, path, i, hit.distance);
     return hit;
   }
   SurfaceHit<Number> miss;
@@ -168,32 +196,6 @@ SurfaceHit<Number> meet_sphere_at(const Sphere& sphere, const Vector<Number>& fi
 }
 
 template <class Number>
-Vector<Number> finite_shift(const Deflectors& deflectors, const Vector<Number>& start,
-                            const Vector<Number>& direction, const Vec3& point) {
-  // Integrating d^2y/dz^2 = -2 m b/r^3 from the camera to z leaves this beside the straight stretches.
-  const double beyond_start = std::max(0.0, (point - value_of(start)).dot(value_of(direction)));
-  Vector<Number> shift = constant<Number>(Vec3(0));
-  for (const DeflectorPlane& plane : deflectors.planes) {
-    for (const Deflector& deflector : plane.deflectors) {
-      const Vector<Number> to_mass = constant<Number>(deflector.position) - start;
-      const Number along = to_mass.dot(direction);
-      const Vector<Number> across = to_mass - direction * along;
-      const Number b2 = across.dot(across);
-      if (value_of(b2) == 0.0) continue;
-      const Number z = beyond_start - along;  // past the closest approach
-      const Number r = sqrt(z * z + b2);
-      const Number z_camera = constant<Number>(deflector.position).dot(direction);
-      const Number r_camera = sqrt(z_camera * z_camera + b2);
-      const bool passed = value_of(z) >= 0.0 || value_of(z_camera) < 0.0;
-      const Number share = passed ? 1.0 / (r + z) : (r + (z * z_camera - b2) / r_camera) / b2;
-      if (value_of(z) < 0.0 && passed) continue;
-      shift += across * (2.0 * deflector.m * share);
-    }
-  }
-  return shift;
-}
-
-template <class Number>
 SurfaceHit<Number> meet(const Surface& surface, const Camera& camera, FilmPosition film,
                         const RayPath<Number>& path, const Deflectors* finite) {
   if (const auto* sphere = std::get_if<Sphere>(&surface)) return meet_sphere(*sphere, path, finite);
@@ -233,8 +235,6 @@ template SurfaceHit<double> meet_sky(const Camera&, const Vec3&, const Vec3&);
 template SurfaceHit<Dual> meet_sky(const Camera&, const DualVec3&, const DualVec3&);
 template SurfaceHit<double> meet_sphere_at(const Sphere&, const Vec3&, const Vec3&);
 template SurfaceHit<Dual> meet_sphere_at(const Sphere&, const DualVec3&, const DualVec3&);
-template Vec3 finite_shift(const Deflectors&, const Vec3&, const Vec3&, const Vec3&);
-template DualVec3 finite_shift(const Deflectors&, const DualVec3&, const DualVec3&, const Vec3&);
 template SurfaceHit<double> meet(const Surface&, const Camera&, FilmPosition, const RayPath<double>&,
                                  const Deflectors*);
 template SurfaceHit<Dual> meet(const Surface&, const Camera&, FilmPosition, const RayPath<Dual>&,

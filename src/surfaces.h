@@ -91,13 +91,6 @@ template <class Number>
 SurfaceHit<Number> meet_sphere_at(const Sphere& sphere, const Vector<Number>& first,
                                   const Vector<Number>& point);
 
-/// By how much the light's true path lies beside its straight stretch near `point`, towards the masses: what
-/// the finite distance of a light source changes, to first order in m. `start` and `direction` are the
-/// stretch's.
-template <class Number>
-Vector<Number> finite_shift(const Deflectors& deflectors, const Vector<Number>& start,
-                            const Vector<Number>& direction, const Vec3& point);
-
 /// What the path of a ray that left the camera through `film` meets on `surface` (sphere: first entry).
 /// `finite` holds the masses when their finite distances count, otherwise null.
 template <class Number>
