@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Draws stars_hipparcos.csv as a lat-long sky, stars_sky.png: what a layer of type latlong can show of the stars.
 
+Behind them lies the glow of the Milky Way: the number of stars in the catalogue, blurred over a few degrees.
 Every star is a small Gaussian of constant angular width; its brightness follows its magnitude, its colour B - V (as a
 blackbody, roughly). s = 0.5 is right ascension 0, s grows with falling right ascension, as the sky is seen from inside;
 t = 1 is the celestial north pole. Needs python3-numpy and oiiotool.
@@ -41,11 +42,34 @@ def draw(sky, ra_deg, dec_deg, flux):
     numpy.add.at(sky, (rows[keep][:, None], columns[None, :] % WIDTH), patch)
 
 
+def glow(stars):
+    """Light of the stars that are too faint to be drawn: where there are many bright ones there are many faint ones."""
+    height, width = HEIGHT // 8, WIDTH // 8
+    ra, dec = numpy.radians(numpy.array([(float(s["ra_deg"]), float(s["dec_deg"])) for s in stars])).T
+    points = numpy.stack([numpy.cos(dec) * numpy.cos(ra), numpy.cos(dec) * numpy.sin(ra), numpy.sin(dec)], axis=1)
+    longitude = (0.5 - (numpy.arange(width) + 0.5) / width) * 2 * math.pi
+    latitude = (0.5 - (numpy.arange(height) + 0.5) / height) * math.pi
+    density = numpy.zeros((height, width))
+    for row, lat in enumerate(latitude):
+        near = points[abs(dec - lat) < math.radians(12)]
+        cosine = numpy.cos(lat) * (numpy.outer(numpy.cos(longitude), near[:, 0]) +
+                                   numpy.outer(numpy.sin(longitude), near[:, 1])) + numpy.sin(lat) * near[:, 2]
+        density[row] = numpy.exp((cosine - 1) / math.radians(2.5) ** 2).sum(axis=1)
+    density = (density / density.mean()) ** 2
+    x = (numpy.arange(WIDTH) + 0.5) / 8 - 0.5
+    y = numpy.clip((numpy.arange(HEIGHT) + 0.5) / 8 - 0.5, 0, height - 1)
+    x0, y0 = numpy.floor(x).astype(int), numpy.minimum(numpy.floor(y).astype(int), height - 2)
+    in_rows = density[y0] * (1 - (y - y0))[:, None] + density[y0 + 1] * (y - y0)[:, None]
+    smooth = in_rows[:, x0 % width] * (1 - (x - x0)) + in_rows[:, (x0 + 1) % width] * (x - x0)
+    return 0.012 * smooth[:, :, None] * numpy.array([1.0, 0.93, 0.85])
+
+
 def main():
-    sky = numpy.zeros((HEIGHT, WIDTH, 3))
     with open(FOLDER / "stars_hipparcos.csv", newline="") as file:
         lines = [line for line in file if not line.startswith("#")]
-    for star in csv.DictReader(lines):
+    stars = list(csv.DictReader(lines))
+    sky = glow(stars)
+    for star in stars:
         flux = 10 ** (-0.4 * (float(star["v_mag"]) - 4.0))
         draw(sky, float(star["ra_deg"]), float(star["dec_deg"]), flux * colour(float(star["b_minus_v"] or 0.6)))
     sky = numpy.clip(sky, 0, 1)
