@@ -1,25 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the finite distance of a light source changes: near the masses light is not where its straight
-// stretches say.
+// What the finite distance of a light source changes: near a mass, light runs beside the straight stretches
+// of its path, which are its asymptotes. To first order in m, beyond the closest approach by
+//
+//   2 m (r - z)/b = 2 m b/(r + z),   r = hypot(z, b),
+//
+// towards the mass, z being the way from there; before it by (2 m/b) (r + (z z_c - b^2)/r_c), with z_c and
+// r_c the same of the camera (integrate d^2y/dz^2 = -2 m b/r^3 from there).
 
 #pragma once
 
-#include <cstddef>
-#include <optional>
-
 #include "src/deflectors.h"
-#include "src/dual.h"
+#include "src/ray_path.h"
 
 namespace lensplane {
 
-/// By how much the light's true path lies beside its straight stretch, towards the masses, where it enters
-/// the ball or is nearest to its centre: what the finite distance of a light source changes, to first order
-/// in m. `start` and `direction` are the stretch's; `bent` is how many of the planes have bent it, nothing
-/// for light that has turned back: that is taken to have been bent by the masses that lie behind it.
+/// By how much the light runs beside its straight stretch, `way` metres from the stretch's start.
 template <class Number>
-Vector<Number> finite_shift(const Deflectors& deflectors, std::optional<std::size_t> bent,
-                            const Vector<Number>& start, const Vector<Number>& direction,
-                            const Sphere& sphere);
+Vector<Number> finite_shift(const Deflectors& deflectors, const RaySegment<Number>& stretch, double way);
+
+/// A straight stretch as it truly runs near `point`: from its own shifted start through the shifted point of
+/// it that is nearest.
+template <class Number>
+RaySegment<Number> shifted(const Deflectors& deflectors, const RaySegment<Number>& stretch,
+                           const Vec3& point);
+
+/// The chord from the shifted end of one stretch to the shifted start of the next.
+template <class Number>
+RaySegment<Number> chord_between(const Deflectors& deflectors, const RaySegment<Number>& in,
+                                 const RaySegment<Number>& out);
+
+/// The straight line from `start` to `end`.
+template <class Number>
+RaySegment<Number> straight_between(const Vector<Number>& start, const Vector<Number>& end,
+                                    const RaySegment<Number>& along);
 
 }  // namespace lensplane

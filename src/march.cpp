@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/deflection.h"
 
 namespace lensplane {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Number>
 bool is_finite(const Vector<Number>& v) {
@@ -64,9 +67,8 @@ bool cross(const LensPlane& plane, const Vector<Number>& crossing, const Number&
     path.passages.push_back({source.lens, source.m, length(source.position), b, alpha, travelled});
     v_ray = *bent;
   }
-  path.segments.push_back({crossing, v_ray});
+  path.segments.push_back({crossing, v_ray, Number(kInfinity), ++path.bends});
   path.lengths.push_back(travelled);
-  ++path.bends;
   return true;
 }
 

@@ -18,6 +18,10 @@ inline constexpr double kLongestTurn = 100.0;
 /// Error of cosine and sine of near_turn.
 inline constexpr double kNearTurnError = 4e-16;
 
+/// Error of the slopes by q, as a share of their size at A = 0: just above kShortTurn differences of numbers
+/// near 1 are divided by q.
+inline constexpr double kNearSlopeError = 2e-12;
+
 struct SineAndCosine {
   double sine;
   double cosine;

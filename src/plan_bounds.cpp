@@ -96,7 +96,7 @@ Passes pass_all(const Deflectors& everything, const Bundle& bundle, double unsee
   std::size_t passage = 0;
   for (std::size_t k = 0; k < everything.outward && passage < path.passages.size(); ++k) {
     const DeflectorPlane& plane = everything.planes[k];
-    const RaySegment<double>& segment = path.segments[k];
+    const RaySegment<double>& segment = path.segments[2 * k];  // each plane adds two
     const double ahead = (plane.centre - segment.start).dot(segment.direction);
     PassedPlane passed{std::abs(ahead), 0.0, result.masses.size(), 0};
     double more_spread = 0.0;

@@ -226,10 +226,7 @@ LENSPLANE_KERNEL void turn_about(const Deflector& deflector, double limit_z, Lin
       start = difference(start, scaled(out, back));
       way -= value_of(back);
     }
-    if constexpr (path) {  // go on from where the ray was; see turned() of planes_march.cpp
-      start = difference(start, scaled(out, strength.arc * r.sine));
-      rays.path.v[i] += way + value_of(strength.arc) * (1.0 - value_of(r.sine));
-    }
+    if constexpr (path) rays.path.v[i] += way + value_of(strength.arc);
     rays.start.set(i, start);
     rays.direction.set(i, out);
     rays.irregular[i] = value_of(out.z) < limit_z ? rays.irregular[i] : 1.0;
@@ -305,14 +302,9 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
                                  Vec3(rays.direction.x.dy[i], rays.direction.y.dy[i], rays.direction.z.dy[i]),
                                  across, normal, along);
     const Vec3 out_x = turned(x), out_y = turned(y);
-    Vec3 start = difference(mass, across_out);
-    Vec3 start_x = carried(x), start_y = carried(y);
-    if constexpr (path) {  // go on from where the ray was; see turned() of planes_march.cpp
-      start = difference(start, scaled(out, b_sine));
-      start_x = difference(start_x, scaled(out_x, b_sine));
-      start_y = difference(start_y, scaled(out_y, b_sine));
-      rays.path.v[i] += along + strength.arc * (1.0 - r.sine);
-    }
+    const Vec3 start = difference(mass, across_out);
+    const Vec3 start_x = carried(x), start_y = carried(y);
+    if constexpr (path) rays.path.v[i] += along + strength.arc;
     rays.start.set(i, dual_vector(start, start_x, start_y));
     rays.direction.set(i, dual_vector(out, out_x, out_y));
     rays.irregular[i] = out.z < limit_z ? rays.irregular[i] : 1.0;
@@ -392,6 +384,7 @@ LENSPLANE_KERNEL void turn_by_sums(const SumsBatch<Number>& sums, double limit_z
     const Vector<Number> rotated = difference(inward, scaled(axis, dot(inward, bend)));
     const Vector<Number> out = sum(scaled(direction, r.cosine), scaled(bend, r.sine));
     Vector<Number> start = difference(sums.reference.get(i), rotated);
+    if constexpr (path) start = sum(start, scaled(out, Number(sums.arc.v[i]) * r.sine));  // along the line
     double way = value_of(sums.ahead.get(i));
     if constexpr (finite) {
       const Number back = select(way < 0.0, sums.ahead.get(i), Number(0.0));
@@ -400,7 +393,7 @@ LENSPLANE_KERNEL void turn_by_sums(const SumsBatch<Number>& sums, double limit_z
     }
     rays.start.set(i, start);
     rays.direction.set(i, out);
-    if constexpr (path) rays.path.v[i] += way + sums.arc.v[i] * (1.0 - value_of(r.sine));
+    if constexpr (path) rays.path.v[i] += way + sums.arc.v[i];
     const bool fits = turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z);
     rays.irregular[i] = fits ? rays.irregular[i] : 1.0;
   }

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "src/finite_shift.h"
 #include "src/rotation.h"
 
 namespace lensplane {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Number>
 struct Line {
@@ -25,8 +29,8 @@ Vector<Number> constant(const Vec3& v) {
 template <class Number>
 struct Turning {
   Number ahead;  // from the start of the ray to the plane's reference point on it, metres; may be negative
-  Line<Number> out;  // where the ray goes on
-  Number arc;        // by how much the way round the masses is longer than that across their line
+  Line<Number> out;  // where the ray goes on: from the turned foot point
+  Number arc;        // the way there, round the masses
 };
 
 /// The deflectors' sums over one plane. Each deflector's foot point lies `along` past the reference point;
@@ -41,8 +45,7 @@ struct PlaneSums {
 };
 
 /// The ray after the plane: its direction turned by the sum of the angles, its foot points about their
-/// masses. For one deflector this is the rotation about it, exactly. It goes on from where it was, not from
-/// its turned foot point, so that nothing between the two is passed over.
+/// masses. For one deflector this is the rotation about it, exactly.
 template <class Number>
 Turning<Number> turned(const Number& ahead, const Vector<Number>& reference, const Vector<Number>& direction,
                        const PlaneSums<Number>& sums) {
@@ -51,7 +54,8 @@ Turning<Number> turned(const Number& ahead, const Vector<Number>& reference, con
   // The same rotation applied to `inward`, which is perpendicular to `direction`.
   const Vector<Number> rotated =
       inward - (sums.bend * r.versine + direction * r.sine) * inward.dot(sums.bend);
-  return {ahead, {reference - rotated, direction * r.cosine + sums.bend * r.sine}, sums.arc * (1.0 - r.sine)};
+  const Vector<Number> out = direction * r.cosine + sums.bend * r.sine;
+  return {ahead, {reference - rotated + out * (sums.arc * r.sine), out}, sums.arc};
 }
 
 /// Where the ray that ends `path` goes on behind a plane; nothing when it is captured there.
@@ -83,17 +87,25 @@ std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_
   return turned(ahead, reference, ray.direction, sums);
 }
 
-/// Lets the ray go on from a plane. With finite distance its path never goes backwards: a mass behind the
-/// camera bends it where it is.
+/// Lets the ray go on from a plane, by the chord of its way round the masses. With finite distance it never
+/// goes backwards: a mass behind the camera bends it where it is.
 template <class Number>
 void go_on(const Turning<Number>& turning, bool finite_distance, RayPath<Number>& path) {
   const bool behind = finite_distance && value_of(turning.ahead) < 0.0;
   const Number way = behind ? Number(0.0) : turning.ahead;
-  const Vector<Number> start = turning.out.start + turning.out.direction * (way - turning.ahead);
+  const Vector<Number> start =
+      behind ? turning.out.start - turning.out.direction * turning.ahead : turning.out.start;
   path.segments.back().length = way;
-  path.segments.push_back({start, turning.out.direction});
-  path.lengths.push_back(path.lengths.back() + way + turning.arc);
-  ++path.bends;
+  const RaySegment<Number> ray = path.segments.back();
+  path.segments.push_back(straight_between(ray.start + ray.direction * way, start, ray));
+  path.lengths.push_back(path.lengths.back() + way);
+  path.segments.push_back({start, turning.out.direction, Number(kInfinity), ++path.bends});
+  path.lengths.push_back(path.lengths.back() + turning.arc);
+}
+
+/// The number of the segment by which a ray leaves the outward plane number `plane`: each plane adds two.
+constexpr std::size_t segment_after(std::size_t plane) {
+  return 2 * (plane + 1);
 }
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -103,7 +115,7 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 std::size_t nearest_ahead(const std::vector<DeflectorPlane>& planes, const std::vector<Vec3>& left,
                           const Vec3& start, const Vec3& direction, std::size_t last) {
   std::size_t nearest = kNone;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const bool returns = left[i] == Vec3(0) || left[i].dot(direction) < 0.0;
     const double ahead = (planes[i].centre - start).dot(direction);
@@ -118,7 +130,7 @@ std::size_t nearest_ahead(const std::vector<DeflectorPlane>& planes, const std::
 template <class Number>
 void march_on(const Deflectors& deflectors, std::size_t passed, RayPath<Number>& path) {
   std::vector<Vec3> left(deflectors.planes.size(), Vec3(0));
-  for (std::size_t i = 0; i < passed; ++i) left[i] = value_of(path.segments[i + 1].direction);
+  for (std::size_t i = 0; i < passed; ++i) left[i] = value_of(path.segments[segment_after(i)].direction);
   for (std::size_t last = passed - 1;;) {
     const RaySegment<Number>& ray = path.segments.back();
     const std::size_t next =
@@ -139,8 +151,10 @@ template <class Number>
 bool turned_back(const Deflectors& deflectors, const RayPath<Number>& path) {
   const Vec3 direction = value_of(path.segments.back().direction);
   if (deflectors.flat) return !(direction.z < 0.0);
-  return std::any_of(path.segments.begin(), path.segments.end(),
-                     [&](const RaySegment<Number>& s) { return value_of(s.direction).dot(direction) < 0.0; });
+  for (std::size_t i = 0; i < path.segments.size(); i += 2) {
+    if (value_of(path.segments[i].direction).dot(direction) < 0.0) return true;
+  }
+  return false;
 }
 
 template <class Number>

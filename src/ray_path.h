@@ -22,6 +22,7 @@ struct RaySegment {
   Vector<Number> start;                                     // metres
   Vector<Number> direction;                                 // unit vector
   Number length = std::numeric_limits<double>::infinity();  // metres
+  int bends = 0;                                            // planes that have bent the ray so far
 };
 
 /// A mass that a ray has passed, as the arrival time needs it.

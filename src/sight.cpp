@@ -134,27 +134,29 @@ void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k) {
 }
 
 template <class Number>
-void see_spheres(const Sight& sight, const Ends& ends, int bends, LineBatch<Number>& rays,
+void see_spheres(const Sight& sight, const Ends& ends, int bends, Stretch stretch, LineBatch<Number>& rays,
                  TraceBatch& batch) {
   alignas(64) BatchArray entry;
+  const bool is_shifted = sight.finite && stretch == Stretch::Straight;
   for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
     const auto* sphere = std::get_if<Sphere>(&sight.surfaces[k]);
     if (!sphere) continue;
-    VectorLane<Number> start = rays.start;
-    for (int i = 0; sight.finite && i < kBatchSize; ++i) {
-      const Vector<Number> line = start.get(i), direction = rays.direction.get(i);
-      start.set(
-          i, line + finite_shift(*sight.finite, static_cast<std::size_t>(bends), line, direction, *sphere));
+    VectorLane<Number> start = rays.start, direction = rays.direction;
+    for (int i = 0; is_shifted && i < kBatchSize; ++i) {
+      const RaySegment<Number> stretch{start.get(i), direction.get(i), Number(ends.at[i]), bends};
+      const RaySegment<Number> near = shifted(*sight.finite, stretch, sphere->centre);
+      start.set(i, near.start);
+      direction.set(i, near.direction);
     }
-    enter_sphere(*sphere, start, rays.direction, ends, entry);
+    enter_sphere(*sphere, start, direction, ends, entry);
     SurfaceBatch& surface = batch.surfaces[k];
     for (int i = 0; i < kBatchSize; ++i) {
       if (!(entry[i] < kInfinity) || surface.outcome[i] == Outcome::Hit || rays.captured[i] != 0.0) continue;
       const Vector<Number> first = direction_from_film<Number>(sight.camera, {batch.x[i], batch.y[i]});
-      const Number way = sphere_entry(start.get(i), rays.direction.get(i), sphere->centre, sphere->radius);
-      auto hit = meet_sphere_at(*sphere, first, start.get(i) + rays.direction.get(i) * way);
+      const Number way = sphere_entry(start.get(i), direction.get(i), sphere->centre, sphere->radius);
+      auto hit = meet_sphere_at(*sphere, first, start.get(i) + direction.get(i) * way);
       hit.distance = rays.path.v[i] + entry[i];
-      hit.direction = value_of(rays.direction.get(i));
+      hit.direction = value_of(direction.get(i));
       hit.bends = bends;
       set(sight, hit, i, surface);
       if (sight.effects.delay) rays.irregular[i] = 1.0;
@@ -185,8 +187,8 @@ void see_infinity(const Sight& sight, const LineBatch<Number>& rays, int bends, 
 
 template void set(const Sight&, const SurfaceHit<double>&, int, SurfaceBatch&);
 template void set(const Sight&, const SurfaceHit<Dual>&, int, SurfaceBatch&);
-template void see_spheres(const Sight&, const Ends&, int, LineBatch<double>&, TraceBatch&);
-template void see_spheres(const Sight&, const Ends&, int, LineBatch<Dual>&, TraceBatch&);
+template void see_spheres(const Sight&, const Ends&, int, Stretch, LineBatch<double>&, TraceBatch&);
+template void see_spheres(const Sight&, const Ends&, int, Stretch, LineBatch<Dual>&, TraceBatch&);
 template void see_infinity(const Sight&, const LineBatch<double>&, int, TraceBatch&);
 template void see_infinity(const Sight&, const LineBatch<Dual>&, int, TraceBatch&);
 

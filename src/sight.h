@@ -41,10 +41,14 @@ void set(const Sight& sight, const SurfaceHit<Number>& hit, int i, SurfaceBatch&
 /// Copies one ray's results, on all surfaces.
 void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k);
 
-/// Lets the rays meet the spheres on their present straight stretch. Rays whose arrival time is asked for are
-/// marked irregular where they hit: a batch does not keep the masses that they passed.
+/// A stretch of a ray between planes, or a chord of its way round the masses of one.
+enum class Stretch { Straight, Chord };
+
+/// Lets the rays meet the spheres on their present stretch. Rays whose arrival time is asked for are marked
+/// irregular where they hit: a batch does not keep the masses that they passed.
 template <class Number>
-void see_spheres(const Sight& sight, const Ends& ends, int bends, LineBatch<Number>& rays, TraceBatch& batch);
+void see_spheres(const Sight& sight, const Ends& ends, int bends, Stretch stretch, LineBatch<Number>& rays,
+                 TraceBatch& batch);
 
 /// Lets the rays meet what lies at infinity. `bends`: how many planes bent them.
 template <class Number>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <type_traits>
 
 #include "src/arrival_time.h"
@@ -51,48 +50,29 @@ double magnification_of(double seen, double there) {
   return std::clamp(mu, -kLargestMagnification, kLargestMagnification);
 }
 
-/// Shapiro delay of the masses that the light from a point `travelled` metres along the path, on its stretch
-/// number `i`, does not pass.
+/// The segment number `i` of the path, as finite distances move it near the sphere. A chord, between planes'
+/// foot points, joins its neighbours.
 template <class Number>
-double delay_by_masses_ahead(const Deflectors& deflectors, const RayPath<Number>& path, std::size_t i,
-                             double travelled) {
-  const Vec3 start = value_of(path.segments[i].start), direction = value_of(path.segments[i].direction);
-  double delay = 0.0;
-  for (const DeflectorPlane& plane : deflectors.planes) {
-    for (const Deflector& deflector : plane.deflectors) {
-      const bool passed = std::any_of(path.passages.begin(), path.passages.end(), [&](const auto& p) {
-        return p.lens == deflector.lens && value_of(p.path) <= travelled;
-      });
-      if (passed) continue;
-      const Vec3 to_mass = deflector.position - start;
-      const double along = to_mass.dot(direction);
-      const double z1 = value_of(path.lengths[i]) + along;
-      delay += 2.0 * deflector.m *
-               shapiro_logarithm_between(z1, travelled - z1, length(to_mass - direction * along));
-    }
-  }
-  return delay;
+RaySegment<Number> shifted_segment(const Deflectors& finite, const RayPath<Number>& path, std::size_t i,
+                                   const Sphere& sphere) {
+  if (i % 2 == 0) return shifted(finite, path.segments[i], sphere.centre);
+  return chord_between(finite, path.segments[i - 1], path.segments[i + 1]);
 }
 
 template <class Number>
 SurfaceHit<Number> meet_sphere(const Sphere& sphere, const RayPath<Number>& path, const Deflectors* finite) {
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
-    const RaySegment<Number>& segment = path.segments[i];
-    Vector<Number> start = segment.start;
-    if (finite) {
-      const bool back = value_of(segment.direction).dot(value_of(path.segments.front().direction)) < 0.0;
-      const auto bent = back ? std::nullopt : std::optional(i);
-      start += finite_shift(*finite, bent, segment.start, segment.direction, sphere);
-    }
-    const Number entry = sphere_entry(start, segment.direction, sphere.centre, sphere.radius);
+    const RaySegment<Number> segment = finite ? shifted_segment(*finite, path, i, sphere) : path.segments[i];
+    const Number entry = sphere_entry(segment.start, segment.direction, sphere.centre, sphere.radius);
     if (!(value_of(entry) <= value_of(segment.length)) || !(value_of(entry) < kInfinity)) continue;
-    const Vector<Number> point = start + segment.direction * entry;
+    const Vector<Number> point = segment.start + segment.direction * entry;
     SurfaceHit<Number> hit = meet_sphere_at(sphere, path.segments.front().direction, point);
     hit.distance = value_of(path.lengths[i]) + value_of(entry);
     hit.direction = value_of(segment.direction);
-    hit.bends = static_cast<int>(i);
-    hit.delay = (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance);
-    if (finite) hit.delay += delay_by_masses_ahead(*finite, path, i, hit.distance);
+    hit.bends = segment.bends;
+    std::size_t passed = 0;
+    while (passed < path.passages.size() && value_of(path.passages[passed].path) <= hit.distance) ++passed;
+    hit.delay = (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance, passed);
     return hit;
   }
   SurfaceHit<Number> miss;

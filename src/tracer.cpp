@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "src/constants.h"
+#include "src/finite_shift.h"
 #include "src/march_batch.h"
 #include "src/single_ray.h"
 
@@ -51,12 +52,32 @@ void put_back(const PickedRays& from, TraceBatch& batch) {
   }
 }
 
+/// The way round the masses of a plane, as chords: from where the rays `before` it end to where `after`
+/// starts.
+template <class Number>
+LineBatch<Number> chords_between(const Sight& sight, int bends, const LineBatch<Number>& before,
+                                 const Ends& ends, const LineBatch<Number>& after, Ends& chord_ends) {
+  LineBatch<Number> chord = after;
+  for (int i = 0; i < kBatchSize; ++i) {
+    const RaySegment<Number> in{before.start.get(i), before.direction.get(i), Number(ends.at[i]), bends};
+    const RaySegment<Number> out{after.start.get(i), after.direction.get(i), Number(0.0), bends + 1};
+    const RaySegment<Number> joint =
+        sight.finite ? chord_between(*sight.finite, in, out)
+                     : straight_between(in.start + in.direction * in.length, out.start, in);
+    chord.start.set(i, joint.start);
+    chord.direction.set(i, joint.direction);
+    chord.path.v[i] = before.path.v[i] + ends.at[i];
+    chord_ends.at[i] = value_of(joint.length);
+  }
+  return chord;
+}
+
 /// Traces the batch through the planes of `deflectors`; returns which rays it leaves to others.
 template <class Number>
 void march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach reach, TraceBatch& batch,
                         BatchArray& irregular) {
-  LineBatch<Number> rays;
-  Ends ends;
+  LineBatch<Number> rays, before;
+  Ends ends, chord_ends;
   const bool spheres = sight.any_sphere();
   const PlanesWork work{reach, spheres || sight.effects.delay, sight.effects.delay};
   start_lines(sight.camera, batch.x, batch.y, rays);
@@ -65,11 +86,17 @@ void march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
   for (std::size_t k = 0; k < count; ++k) {
     if (spheres) {
       end_nearest(deflectors.planes[k].centre, deflectors.finite_distance, rays, ends);
-      see_spheres(sight, ends, static_cast<int>(k), rays, batch);
+      see_spheres(sight, ends, static_cast<int>(k), Stretch::Straight, rays, batch);
     }
+    if (spheres) before = rays;
     pass_plane(deflectors, k, work, rays);
+    if (spheres) {
+      LineBatch<Number> chord = chords_between(sight, static_cast<int>(k), before, ends, rays, chord_ends);
+      see_spheres(sight, chord_ends, static_cast<int>(k), Stretch::Chord, chord, batch);
+      std::copy_n(chord.irregular, kBatchSize, rays.irregular);
+    }
   }
-  if (spheres) see_spheres(sight, no_end(), static_cast<int>(count), rays, batch);
+  if (spheres) see_spheres(sight, no_end(), static_cast<int>(count), Stretch::Straight, rays, batch);
   see_infinity(sight, rays, static_cast<int>(count), batch);
   std::copy_n(rays.irregular, kBatchSize, irregular);
   // A batch does not keep how far a captured ray came.
@@ -163,13 +190,13 @@ void Tracer::trace_by_paper(TraceBatch& batch) const {
     if (!(plane.distance > 0.0)) continue;
     if (spheres) {
       end_at_plane(plane.distance, rays, ends);
-      see_spheres(view, ends, bends, rays, batch);
+      see_spheres(view, ends, bends, Stretch::Straight, rays, batch);
     }
     advance_rays(plane.distance, rays);
     for (const Source& source : plane.sources) bend_rays(source, rays);
     ++bends;
   }
-  if (spheres) see_spheres(view, no_end(), bends, rays, batch);
+  if (spheres) see_spheres(view, no_end(), bends, Stretch::Straight, rays, batch);
   see_infinity(view, rays, bends, batch);
   for (int i = 0; i < kBatchSize; ++i) {
     if (rays.irregular[i] != 0.0) trace_singly(0, i, batch);

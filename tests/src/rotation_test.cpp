@@ -51,19 +51,19 @@ Dual dual_at(double q) {
   return {q, 1, 2};
 }
 
-/// The first term of sin(A)/A that short_turn() leaves out, A^8/9!, is about 1e-16; its slope at the largest
-/// short turn is 1.1e-12 of 1/6. The quotients for larger turns lose as many digits at first.
-constexpr double kSlopeError = 1.4e-12;
+/// The first term of sin(A)/A that short_turn() leaves out, A^8/9!, is 1e-16 at the largest short turn; its
+/// slope there is this share of 1/6.
+constexpr double kShortSlopeError = 1.1e-12;
 
 TEST(Rotation, ShortTurnsAreThoseOfTheLibraryToRounding) {
   for (double a = 0; a <= kShortTurn; a += 1e-4) {
     const double q = std::min(a * a, kShortTurn * kShortTurn);
-    expect_turn(short_turn(dual_at(q)), q, 2.3e-16, kSlopeError);
+    expect_turn(short_turn(dual_at(q)), q, 2.3e-16, kShortSlopeError);
   }
 }
 
 TEST(Rotation, TurnsOfAnySizeAreThoseOfTheLibrary) {
-  for (double a = 0; a < 40; a += 1.7e-3) expect_turn(turn(dual_at(a * a)), a * a, 4e-15, kSlopeError);
+  for (double a = 0; a < 40; a += 1.7e-3) expect_turn(turn(dual_at(a * a)), a * a, 4e-15, kShortSlopeError);
 }
 
 TEST(Rotation, NoTurnIsTheIdentityWithItsDerivatives) {
@@ -102,7 +102,7 @@ TEST(NearTurn, QuarterTurnsChangeNoSign) {
 TEST(NearTurn, IsTheRotationOfTheReference) {
   for (double a = 0; a < kLongestTurn; a += 1.3e-3) {
     // A itself is rounded: that costs what A has digits before the point.
-    expect_turn(near_turn(dual_at(a * a)), a * a, 2 * kNearTurnError + 2e-16 * a, kSlopeError);
+    expect_turn(near_turn(dual_at(a * a)), a * a, 2 * kNearTurnError + 2e-16 * a, kNearSlopeError);
   }
 }
 
@@ -112,8 +112,8 @@ TEST(NearTurn, DoesNotCareOnWhichSideOfTheShortTurnsItIs) {
   EXPECT_NEAR(below.cosine.v, above.cosine.v, kNearTurnError);
   EXPECT_NEAR(below.sine.v, above.sine.v, kNearTurnError);
   EXPECT_NEAR(below.versine.v, above.versine.v, kNearTurnError);
-  EXPECT_NEAR(below.sine.dx, above.sine.dx, kSlopeError / 6);
-  EXPECT_NEAR(below.versine.dx, above.versine.dx, kSlopeError / 24);
+  EXPECT_NEAR(below.sine.dx, above.sine.dx, kNearSlopeError / 6);
+  EXPECT_NEAR(below.versine.dx, above.versine.dx, kNearSlopeError / 24);
 }
 
 }  // namespace
