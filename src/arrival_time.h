@@ -4,7 +4,7 @@
 // light in empty space.
 //
 // What is seen at a finite distance: the path's length, less the straight distance, plus for each mass that
-// the light has passed
+// the light has passed (where finite distances count, for every mass)
 //
 //   2 m ln((z1 + r1)(z2 + r2)/b^2),    r = hypot(z, b),
 //
@@ -37,17 +37,22 @@ double shapiro_delay_from_infinity(const RayPath<Number>& path) {
   return delay;
 }
 
-/// The same for light from a point `travelled` metres along the path; masses beyond it do not count.
+/// ln((z1 + r1)(z2 + r2)/b^2) for z1 + z2 > 0.
+inline double shapiro_logarithm_between(double z1, double z2, double b) {
+  const double r1 = std::hypot(z1, b), r2 = std::hypot(z2, b);
+  if (z1 < 0.0) return std::log((z2 + r2) / (r1 - z1));
+  if (z2 < 0.0) return std::log((z1 + r1) / (r2 - z2));
+  return std::log((z1 + r1) / b) + std::log((z2 + r2) / b);
+}
+
+/// The same for light from a point `travelled` metres along the path, of the masses passed until there.
 template <class Number>
-double shapiro_delay(const RayPath<Number>& path, double travelled, std::size_t passages) {
+double shapiro_delay(const RayPath<Number>& path, double travelled) {
   double delay = 0.0;
-  for (std::size_t i = 0; i < passages; ++i) {
-    const Passage<Number>& p = path.passages[i];
-    const double z2 = travelled - value_of(p.path);
-    const double b = value_of(p.b);
-    const double r2 = std::hypot(z2, b);
-    const double far = z2 >= 0.0 ? z2 + r2 : b * (b / (r2 - z2));
-    delay += 2.0 * p.m * shapiro_logarithm(value_of(p.path), far, b);
+  for (const Passage<Number>& p : path.passages) {
+    const double z1 = value_of(p.path);
+    if (z1 > travelled) continue;
+    delay += 2.0 * p.m * shapiro_logarithm_between(z1, travelled - z1, value_of(p.b));
   }
   return delay;
 }

@@ -2,8 +2,6 @@
 
 #include "src/finite_shift.h"
 
-#include <algorithm>
-
 namespace lensplane {
 namespace {
 
@@ -12,10 +10,35 @@ Vector<Number> constant(const Vec3& v) {
   return {Number(v.x), Number(v.y), Number(v.z)};
 }
 
-/// The shift by one mass, which the light has passed or not.
+/// Has a mass bent a stretch?
+enum class Bent {
+  NotYet,
+  JustNow,  // by the plane at its start; the mass's own foot point may still lie ahead
+  Before,
+};
+
+// The formulas of the header over 2 m b, without cancellation.
+
 template <class Number>
-Vector<Number> shift_by(const Deflector& deflector, bool passed, const RaySegment<Number>& stretch,
-                        double way) {
+Number shift_before(const Number& z, const Number& z_camera, const Number& b2) {
+  const Number r = sqrt(z * z + b2);
+  const Number r_camera = sqrt(z_camera * z_camera + b2);
+  const Number product = z * z_camera;
+  const Number sum = value_of(product) < 0.0 ? (z * z + z_camera * z_camera + b2) / (r * r_camera - product)
+                                             : (r * r_camera + product) / b2;
+  return (sum - 1.0) / r_camera;
+}
+
+template <class Number>
+Number shift_after(const Number& z, const Number& b2) {
+  const Number r = sqrt(z * z + b2);
+  return value_of(z) < 0.0 ? (r - z) / b2 : 1.0 / (r + z);
+}
+
+/// The shift by one mass. One that the light, having turned back, comes towards again counts as if beside it.
+template <class Number>
+Vector<Number> shift_by(const Deflector& deflector, Bent bent, const RaySegment<Number>& stretch,
+                        const Number& way) {
   const Vector<Number> mass = constant<Number>(deflector.position);
   const Vector<Number> to_mass = mass - stretch.start;
   const Number along = to_mass.dot(stretch.direction);
@@ -23,23 +46,38 @@ Vector<Number> shift_by(const Deflector& deflector, bool passed, const RaySegmen
   const Number b2 = across.dot(across);
   if (value_of(b2) == 0.0) return constant<Number>(Vec3(0));
   const Number beyond = way - along;
-  const Number z = select((value_of(beyond) > 0.0) == passed, beyond, Number(0.0));
-  const Number r = sqrt(z * z + b2);
-  if (passed) return across * (2.0 * deflector.m / (r + z));
-  const Number z_camera = mass.dot(stretch.direction);
-  const Number r_camera = sqrt(z_camera * z_camera + b2);
-  return across * ((2.0 * deflector.m) * (r + (z * z_camera - b2) / r_camera) / b2);
+  const Number z = select(bent == Bent::Before && value_of(beyond) < 0.0, Number(0.0), beyond);
+  const Number share =
+      bent == Bent::NotYet ? shift_before(z, mass.dot(stretch.direction), b2) : shift_after(z, b2);
+  return across * (2.0 * deflector.m * share);
+}
+
+/// Metres along a stretch to where it enters the ball, or else is nearest to its centre; within the stretch.
+template <class Number>
+Number way_to_ball(const RaySegment<Number>& stretch, const Sphere& sphere) {
+  const Vector<Number> to_centre = constant<Number>(sphere.centre) - stretch.start;
+  const Number along = to_centre.dot(stretch.direction);
+  const Vector<Number> across = to_centre - stretch.direction * along;
+  const Number half_chord2 = Number(sphere.radius * sphere.radius) - across.dot(across);
+  const Number way = value_of(half_chord2) > 0.0 ? along - sqrt(half_chord2) : along;
+  if (!(value_of(way) > 0.0)) return 0.0;
+  // Its end bounds the stretch as a number: batches do not keep that length's derivatives.
+  return value_of(way) < value_of(stretch.length) ? way : Number(value_of(stretch.length));
 }
 
 }  // namespace
 
 template <class Number>
-Vector<Number> finite_shift(const Deflectors& deflectors, const RaySegment<Number>& stretch, double way) {
+Vector<Number> finite_shift(const Deflectors& deflectors, const RaySegment<Number>& stretch,
+                            const Number& way) {
   Vector<Number> shift = constant<Number>(Vec3(0));
   for (std::size_t k = 0; k < deflectors.outward; ++k) {
-    const bool passed = static_cast<int>(k) < stretch.bends;
+    const int plane = static_cast<int>(k);
+    const Bent bent = plane >= stretch.bends       ? Bent::NotYet
+                      : plane == stretch.bends - 1 ? Bent::JustNow
+                                                   : Bent::Before;
     for (const Deflector& deflector : deflectors.planes[k].deflectors) {
-      shift += shift_by(deflector, passed, stretch, way);
+      shift += shift_by(deflector, bent, stretch, way);
     }
   }
   return shift;
@@ -56,32 +94,30 @@ RaySegment<Number> straight_between(const Vector<Number>& start, const Vector<Nu
 
 template <class Number>
 RaySegment<Number> shifted(const Deflectors& deflectors, const RaySegment<Number>& stretch,
-                           const Vec3& point) {
-  const double along = (point - value_of(stretch.start)).dot(value_of(stretch.direction));
-  const double way = std::min(along, value_of(stretch.length));
+                           const Sphere& sphere) {
+  const Number way = way_to_ball(stretch, sphere);
   RaySegment<Number> result = stretch;
-  result.start += finite_shift(deflectors, stretch, 0.0);
-  if (!(way > 0.0)) return result;
-  const Vector<Number> nearest =
-      stretch.start + stretch.direction * Number(way) + finite_shift(deflectors, stretch, way);
-  result.direction = straight_between(result.start, nearest, stretch).direction;
+  result.start += finite_shift(deflectors, stretch, Number(0.0));
+  if (!(value_of(way) > 0.0)) return result;
+  const Vector<Number> point =
+      stretch.start + stretch.direction * way + finite_shift(deflectors, stretch, way);
+  result.direction = straight_between(result.start, point, stretch).direction;
   return result;
 }
 
 template <class Number>
 RaySegment<Number> chord_between(const Deflectors& deflectors, const RaySegment<Number>& in,
                                  const RaySegment<Number>& out) {
-  const Vector<Number> corner =
-      in.start + in.direction * in.length + finite_shift(deflectors, in, value_of(in.length));
-  return straight_between(corner, out.start + finite_shift(deflectors, out, 0.0), in);
+  const Vector<Number> corner = in.start + in.direction * in.length + finite_shift(deflectors, in, in.length);
+  return straight_between(corner, out.start + finite_shift(deflectors, out, Number(0.0)), in);
 }
 
-template Vec3 finite_shift(const Deflectors&, const RaySegment<double>&, double);
-template DualVec3 finite_shift(const Deflectors&, const RaySegment<Dual>&, double);
+template Vec3 finite_shift(const Deflectors&, const RaySegment<double>&, const double&);
+template DualVec3 finite_shift(const Deflectors&, const RaySegment<Dual>&, const Dual&);
 template RaySegment<double> straight_between(const Vec3&, const Vec3&, const RaySegment<double>&);
 template RaySegment<Dual> straight_between(const DualVec3&, const DualVec3&, const RaySegment<Dual>&);
-template RaySegment<double> shifted(const Deflectors&, const RaySegment<double>&, const Vec3&);
-template RaySegment<Dual> shifted(const Deflectors&, const RaySegment<Dual>&, const Vec3&);
+template RaySegment<double> shifted(const Deflectors&, const RaySegment<double>&, const Sphere&);
+template RaySegment<Dual> shifted(const Deflectors&, const RaySegment<Dual>&, const Sphere&);
 template RaySegment<double> chord_between(const Deflectors&, const RaySegment<double>&,
                                           const RaySegment<double>&);
 template RaySegment<Dual> chord_between(const Deflectors&, const RaySegment<Dual>&, const RaySegment<Dual>&);

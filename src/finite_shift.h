@@ -17,13 +17,14 @@ namespace lensplane {
 
 /// By how much the light runs beside its straight stretch, `way` metres from the stretch's start.
 template <class Number>
-Vector<Number> finite_shift(const Deflectors& deflectors, const RaySegment<Number>& stretch, double way);
+Vector<Number> finite_shift(const Deflectors& deflectors, const RaySegment<Number>& stretch,
+                            const Number& way);
 
-/// A straight stretch as it truly runs near `point`: from its own shifted start through the shifted point of
-/// it that is nearest.
+/// A straight stretch as it truly runs where it enters a ball: from its own shifted start through the shifted
+/// point of it where it does, or else is nearest to its centre.
 template <class Number>
 RaySegment<Number> shifted(const Deflectors& deflectors, const RaySegment<Number>& stretch,
-                           const Vec3& point);
+                           const Sphere& sphere);
 
 /// The chord from the shifted end of one stretch to the shifted start of the next.
 template <class Number>

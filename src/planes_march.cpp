@@ -58,7 +58,14 @@ Turning<Number> turned(const Number& ahead, const Vector<Number>& reference, con
   return {ahead, {reference - rotated + out * (sums.arc * r.sine), out}, sums.arc};
 }
 
-/// Where the ray that ends `path` goes on behind a plane; nothing when it is captured there.
+/// How far a ray runs to a plane. With finite distance it never goes backwards: a mass behind the camera
+/// bends it where it is.
+template <class Number>
+Number way_to(const Number& ahead, bool finite_distance) {
+  return finite_distance && value_of(ahead) < 0.0 ? Number(0.0) : ahead;
+}
+
+/// Where the ray that ends `path` goes on behind a plane; nothing when it is captured, and ends, there.
 template <class Number>
 std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_distance,
                                        RayPath<Number>& path) {
@@ -75,7 +82,10 @@ std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_
     std::optional<Number> from_camera;
     if (finite_distance) from_camera = position.dot(ray.direction);
     const auto bent = bend_by(deflector, b, from_camera);
-    if (!bent) return std::nullopt;
+    if (!bent) {
+      path.segments.back().length = way_to(ahead, finite_distance);
+      return std::nullopt;
+    }
     sums.bend += across * bent->per_b;
     sums.kink += across * (bent->per_b * along);
     sums.shift += across * (bent->alpha * bent->alpha);
@@ -87,12 +97,11 @@ std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_
   return turned(ahead, reference, ray.direction, sums);
 }
 
-/// Lets the ray go on from a plane, by the chord of its way round the masses. With finite distance it never
-/// goes backwards: a mass behind the camera bends it where it is.
+/// Lets the ray go on from a plane, by the chord of its way round the masses.
 template <class Number>
 void go_on(const Turning<Number>& turning, bool finite_distance, RayPath<Number>& path) {
   const bool behind = finite_distance && value_of(turning.ahead) < 0.0;
-  const Number way = behind ? Number(0.0) : turning.ahead;
+  const Number way = way_to(turning.ahead, finite_distance);
   const Vector<Number> start =
       behind ? turning.out.start - turning.out.direction * turning.ahead : turning.out.start;
   path.segments.back().length = way;
@@ -196,6 +205,7 @@ template <class Number>
 RayPath<Number> march_planes(const Deflectors& deflectors, const Vector<Number>& direction) {
   RayPath<Number> path = path_from<Number>(constant<Number>(Vec3(0)), direction);
   path.captured = deflectors.blind;
+  if (path.captured) path.segments.back().length = Number(0.0);
   std::size_t passed = 0;
   while (passed < deflectors.outward && !path.captured) {
     const auto turning = turn_at(deflectors.planes[passed], deflectors.finite_distance, path);

@@ -144,7 +144,7 @@ void see_spheres(const Sight& sight, const Ends& ends, int bends, Stretch stretc
     VectorLane<Number> start = rays.start, direction = rays.direction;
     for (int i = 0; is_shifted && i < kBatchSize; ++i) {
       const RaySegment<Number> stretch{start.get(i), direction.get(i), Number(ends.at[i]), bends};
-      const RaySegment<Number> near = shifted(*sight.finite, stretch, sphere->centre);
+      const RaySegment<Number> near = shifted(*sight.finite, stretch, *sphere);
       start.set(i, near.start);
       direction.set(i, near.direction);
     }

@@ -55,8 +55,31 @@ double magnification_of(double seen, double there) {
 template <class Number>
 RaySegment<Number> shifted_segment(const Deflectors& finite, const RayPath<Number>& path, std::size_t i,
                                    const Sphere& sphere) {
-  if (i % 2 == 0) return shifted(finite, path.segments[i], sphere.centre);
+  if (i % 2 == 0) return shifted(finite, path.segments[i], sphere);
   return chord_between(finite, path.segments[i - 1], path.segments[i + 1]);
+}
+
+/// Shapiro delay of the masses that the light from a point `travelled` metres along the path, on its segment
+/// number `i`, does not pass.
+template <class Number>
+double delay_by_masses_ahead(const Deflectors& deflectors, const RayPath<Number>& path, std::size_t i,
+                             double travelled) {
+  const Vec3 start = value_of(path.segments[i].start), direction = value_of(path.segments[i].direction);
+  double delay = 0.0;
+  for (const DeflectorPlane& plane : deflectors.planes) {
+    for (const Deflector& deflector : plane.deflectors) {
+      const bool passed = std::any_of(path.passages.begin(), path.passages.end(), [&](const auto& p) {
+        return p.lens == deflector.lens && value_of(p.path) <= travelled;
+      });
+      if (passed) continue;
+      const Vec3 to_mass = deflector.position - start;
+      const double along = to_mass.dot(direction);
+      const double z1 = value_of(path.lengths[i]) + along;
+      delay += 2.0 * deflector.m *
+               shapiro_logarithm_between(z1, travelled - z1, length(to_mass - direction * along));
+    }
+  }
+  return delay;
 }
 
 template <class Number>
@@ -70,9 +93,8 @@ SurfaceHit<Number> meet_sphere(const Sphere& sphere, const RayPath<Number>& path
     hit.distance = value_of(path.lengths[i]) + value_of(entry);
     hit.direction = value_of(segment.direction);
     hit.bends = segment.bends;
-    std::size_t passed = 0;
-    while (passed < path.passages.size() && value_of(path.passages[passed].path) <= hit.distance) ++passed;
-    hit.delay = (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance, passed);
+    hit.delay = (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance);
+    if (finite) hit.delay += delay_by_masses_ahead(*finite, path, i, hit.distance);
     return hit;
   }
   SurfaceHit<Number> miss;

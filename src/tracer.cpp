@@ -52,14 +52,18 @@ void put_back(const PickedRays& from, TraceBatch& batch) {
   }
 }
 
-/// The way round the masses of a plane, as chords: from where the rays `before` it end to where `after`
-/// starts.
+/// The way round the masses of a plane, as chords: from where the rays `before` it end, by end_nearest(), to
+/// where `after` starts.
 template <class Number>
-LineBatch<Number> chords_between(const Sight& sight, int bends, const LineBatch<Number>& before,
-                                 const Ends& ends, const LineBatch<Number>& after, Ends& chord_ends) {
+LineBatch<Number> chords_between(const Sight& sight, int bends, const Vec3& centre,
+                                 const LineBatch<Number>& before, const Ends& ends,
+                                 const LineBatch<Number>& after, Ends& chord_ends) {
   LineBatch<Number> chord = after;
+  const Vector<Number> end(Number(centre.x), Number(centre.y), Number(centre.z));
   for (int i = 0; i < kBatchSize; ++i) {
-    const RaySegment<Number> in{before.start.get(i), before.direction.get(i), Number(ends.at[i]), bends};
+    const Vector<Number> start = before.start.get(i), direction = before.direction.get(i);
+    const Number along = (end - start).dot(direction);  // as end_nearest(), with its derivatives
+    const RaySegment<Number> in{start, direction, select(ends.at[i] == 0.0, Number(0.0), along), bends};
     const RaySegment<Number> out{after.start.get(i), after.direction.get(i), Number(0.0), bends + 1};
     const RaySegment<Number> joint =
         sight.finite ? chord_between(*sight.finite, in, out)
@@ -92,7 +96,8 @@ bool march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
     if (spheres) before = rays;
     pass_plane(deflectors, k, work, rays);
     if (spheres) {
-      LineBatch<Number> chord = chords_between(sight, static_cast<int>(k), before, ends, rays, chord_ends);
+      LineBatch<Number> chord = chords_between(sight, static_cast<int>(k), deflectors.planes[k].centre,
+                                               before, ends, rays, chord_ends);
       see_spheres(sight, chord_ends, static_cast<int>(k), Stretch::Chord, chord, batch);
       std::copy_n(chord.irregular, kBatchSize, rays.irregular);
     }

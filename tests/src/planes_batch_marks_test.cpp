@@ -50,7 +50,7 @@ TEST(PlanesBatch, LeavesToOthersWhatItCannotDo) {
   const auto irregular = [](double m, double b, const PlanesWork& work) {
     return ahead_past<double>(m, b, kLaws.back(), false, work)->irregular[0] != 0;
   };
-  // Far: up to b_c/kFarRatio. Its bend there, 0.126, is well below kShortTurn.
+  // Far: up to b_c/kFarRatio. Its bend there, 0.040, is below kShortTurn.
   const double nearest = kCriticalRatio / kFarRatio;
   EXPECT_FALSE(irregular(1, nearest * (1 + 1e-12), kFarWork));
   EXPECT_TRUE(irregular(1, nearest * (1 - 1e-12), kFarWork));
