@@ -182,7 +182,7 @@ std::optional<Bend<Number>> bend_by(const Deflector& deflector, const Number& b,
   const double b_c = entry_of(deflector.law).capture_ratio * m;
   const double b_far = deflector.index * value_of(b);
   if (!along) {
-    if (b_far <= b_c) return std::nullopt;
+    if (value_of(b) <= b_c) return std::nullopt;  // as far away: no camera near
     return full_bend(deflector, b);
   }
   const bool ahead = value_of(*along) >= 0.0;

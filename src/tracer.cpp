@@ -145,7 +145,7 @@ void Tracer::trace(TraceBatch& batch) const {
   if (camera_.projection != Projection::Fisheye) return;
   for (int i = 0; i < kBatchSize; ++i) {
     if (sees(camera_, {batch.x[i], batch.y[i]})) continue;
-    SurfaceHit<double> unseen;
+    SurfaceHit<Dual> unseen;  // with derivatives, so that they are cleared, too
     unseen.outcome = Outcome::Unseen;
     for (SurfaceBatch& surface : batch.surfaces) set(sight(), unseen, i, surface);
   }

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws stars_hipparcos.csv as a lat-long sky, stars_sky.png: what a layer of type latlong can show of the stars.
 
 Behind them lies the glow of the Milky Way: the number of stars in the catalogue, blurred over a few degrees.

@@ -324,7 +324,7 @@ TEST(HardCases, PerfectAlignmentGivesAnEvenRing) {
     const double mu = first.surfaces[1].magnification;
     EXPECT_NEAR(p.surfaces[1].magnification, mu, 1e-9 * std::abs(mu)) << angle;
   }
-  expect_finite_maps(scene.camera.width > 100 ? view_of({{m, {0, 0, -distance}}}) : scene);
+  expect_finite_maps(view_of({{m, {0, 0, -distance}}}));
 }
 
 TEST(HardCases, TheWholeSceneDisplacedBy1e15Metres) {
