@@ -3,9 +3,9 @@
 // Batches: many rays side by side in arrays of a fixed size, so that each step is a plain loop without
 // branches which the compiler turns into vector instructions.
 //
-// Kernels use additions, multiplications, divisions, square roots and operations on bits only, none of them
-// contracted: every instruction set gives the same bits, and a ray's result does not depend on its
-// neighbours.
+// Kernels use additions, multiplications, divisions, square roots and operations on bits only: a ray's result
+// does not depend on its neighbours, nor on the width of the vectors. Where multiplications and additions are
+// fused (CMakeLists.txt), processors without that instruction give other last digits, but those are rounding.
 
 #pragma once
 

@@ -72,6 +72,22 @@ struct Tile {
   int left, top, right, bottom;
 };
 
+/// The pixel centres of as many rows from `top` as fit. What reaches beyond the tile repeats its last row and
+/// is not used; beyond the last whole row its first pixel.
+void place_rays(const Tile& tile, int top, int overscan, TraceBatch& batch) {
+  const int width = tile.right - tile.left;
+  int i = 0;
+  for (int row = top; i + width <= kBatchSize; ++row) {
+    const double y = std::min(row, tile.bottom - 1) - overscan + 0.5;
+    const double x = tile.left - overscan + 0.5;
+    for (int column = 0; column < width; ++column, ++i) {
+      batch.x[i] = x + column;
+      batch.y[i] = y;
+    }
+  }
+  for (; i < kBatchSize; ++i) batch.x[i] = batch.x[0], batch.y[i] = batch.y[0];
+}
+
 /// Traces a tile by batches of as many of its rows as fit, and stores it in the maps of `rows`.
 void trace_tile(const Tracer& tracer, const Tile& tile, RowRange rows, TraceBatch& batch,
                 std::vector<LensMap>& maps) {
@@ -79,11 +95,7 @@ void trace_tile(const Tracer& tracer, const Tile& tile, RowRange rows, TraceBatc
   const int width = tile.right - tile.left;
   const int deep = kBatchSize / width;
   for (int top = tile.top; top < tile.bottom; top += deep) {
-    for (int i = 0; i < kBatchSize; ++i) {
-      // What reaches beyond the tile repeats its last row and is not used.
-      batch.x[i] = tile.left + i % width - overscan + 0.5;
-      batch.y[i] = std::min(top + i / width, tile.bottom - 1) - overscan + 0.5;
-    }
+    place_rays(tile, top, overscan, batch);
     tracer.trace(batch);
     for (int row = top; row < std::min(top + deep, tile.bottom); ++row) {
       for (std::size_t k = 0; k < maps.size(); ++k) {

@@ -2,31 +2,36 @@
 
 #include "src/line_batch.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <type_traits>
 
 namespace lensplane {
 namespace {
 
+/// With Dual numbers the derivatives are written out: half of the operations that the rules would take.
 template <class Number>
-LENSPLANE_KERNEL void start_perspective(const Camera& camera, const BatchArray& x, const BatchArray& y,
-                                        LineBatch<Number>& rays) {
-  const double slope = slope_per_pixel(camera);
+LENSPLANE_KERNEL void start_perspective(const Camera& camera, double slope, const BatchArray& x,
+                                        const BatchArray& y, LineBatch<Number>& rays) {
   const double centre_x = camera.width / 2.0;
   const double centre_y = camera.height / 2.0;
 #pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
     const double right = (x[i] - centre_x) * slope;
     const double up = (centre_y - y[i]) * slope;
-    Number dual_right = right;
-    Number dual_up = up;
+    const double scale = 1.0 / std::sqrt(right * right + up * up + 1.0);
     if constexpr (std::is_same_v<Number, Dual>) {
-      dual_right.dx = slope;
-      dual_up.dy = -slope;
+      const double steep = slope * scale, steeper = steep * scale * scale;
+      const double twist = steeper * right * up;
+      rays.direction.set(i, {Dual(right * scale, steep - steeper * right * right, twist),
+                             Dual(up * scale, -twist, steeper * up * up - steep),
+                             Dual(-scale, steeper * right, -steeper * up)});
+    } else {
+      rays.direction.set(i, {right * scale, up * scale, -scale});
     }
-    const Number scale = reciprocal(sqrt(dual_right * dual_right + dual_up * dual_up + Number(1.0)));
-    rays.direction.set(i, {dual_right * scale, dual_up * scale, -scale});
+    rays.start.set(i, {Number(0.0), Number(0.0), Number(0.0)});
+    rays.irregular[i] = 0.0;
+    rays.captured[i] = 0.0;
   }
 }
 
@@ -35,27 +40,31 @@ void start_panorama(const Camera& camera, const BatchArray& x, const BatchArray&
   for (int i = 0; i < kBatchSize; ++i) {
     rays.direction.set(i, direction_from_film<Number>(camera, {x[i], y[i]}));
     rays.first.set(i, value_of(rays.direction.get(i)));
+    rays.start.set(i, {Number(0.0), Number(0.0), Number(0.0)});
+    rays.irregular[i] = 0.0;
+    rays.captured[i] = 0.0;
   }
 }
 
 }  // namespace
 
 template <class Number>
-void start_lines(const Camera& camera, const BatchArray& x, const BatchArray& y, LineBatch<Number>& rays) {
-  // All of it numbers: no bit set is zero.
-  std::memset(&rays.start, 0, sizeof rays.start);
-  std::memset(&rays.path, 0, sizeof rays.path);
-  std::memset(&rays.shapiro, 0, sizeof rays.shapiro);
-  std::memset(rays.irregular, 0, sizeof rays.irregular);
-  std::memset(rays.captured, 0, sizeof rays.captured);
+void start_lines(const Camera& camera, double slope, const BatchArray& x, const BatchArray& y, bool measured,
+                 LineBatch<Number>& rays) {
+  if (measured) {
+    std::fill_n(rays.path.v, kBatchSize, 0.0);
+    std::fill_n(rays.shapiro.v, kBatchSize, 0.0);
+  }
   if (camera.projection == Projection::Perspective) {
-    start_perspective(camera, x, y, rays);
+    start_perspective(camera, slope, x, y, rays);
   } else {
     start_panorama(camera, x, y, rays);
   }
 }
 
-template void start_lines(const Camera&, const BatchArray&, const BatchArray&, LineBatch<double>&);
-template void start_lines(const Camera&, const BatchArray&, const BatchArray&, LineBatch<Dual>&);
+template void start_lines(const Camera&, double, const BatchArray&, const BatchArray&, bool,
+                          LineBatch<double>&);
+template void start_lines(const Camera&, double, const BatchArray&, const BatchArray&, bool,
+                          LineBatch<Dual>&);
 
 }  // namespace lensplane

@@ -21,8 +21,10 @@ struct LineBatch {
   alignas(64) BatchArray captured;   // 0 or 1
 };
 
-/// Rays from the camera through the film positions (x[i], y[i]).
+/// Rays from the camera through the film positions (x[i], y[i]). `slope` is slope_per_pixel() of a
+/// perspective camera; `path` and `shapiro` are set to zero only where `measured`.
 template <class Number>
-void start_lines(const Camera& camera, const BatchArray& x, const BatchArray& y, LineBatch<Number>& rays);
+void start_lines(const Camera& camera, double slope, const BatchArray& x, const BatchArray& y, bool measured,
+                 LineBatch<Number>& rays);
 
 }  // namespace lensplane

@@ -161,14 +161,14 @@ struct Limits {
   }
 };
 
-/// Marks a ray that the kernel does not do for, or that is captured.
+/// Marks a ray that the kernel does not do for, or that is captured. `onward`: it has not turned back.
 template <Reach reach, class Number>
-[[gnu::always_inline]] inline void mark(int i, const Limits<reach>& limits, bool ahead, double b2,
-                                        LineBatch<Number>& rays) {
-  const bool fits = limits.fit(ahead, b2);
+[[gnu::always_inline]] inline void mark(int i, const Limits<reach>& limits, bool onward, bool ahead,
+                                        double b2, LineBatch<Number>& rays) {
+  const bool fits = limits.fit(ahead, b2) & onward;
   if constexpr (reach == Reach::Near) {
-    const bool captured = limits.capture(ahead, b2);
-    rays.captured[i] = captured ? 1.0 : rays.captured[i];
+    const bool captured = (rays.captured[i] != 0.0) | (onward & limits.capture(ahead, b2));
+    rays.captured[i] = captured ? 1.0 : 0.0;
     rays.irregular[i] = fits | captured ? rays.irregular[i] : 1.0;
   } else {
     rays.irregular[i] = fits ? rays.irregular[i] : 1.0;
@@ -197,9 +197,9 @@ LENSPLANE_KERNEL void turn_about(const Deflector& deflector, double limit_z, Lin
     const Vector<Number> across = difference(to_mass, scaled(direction, along));
     const Number b2 = dot(across, across);
     to.across.set(i, across);
-    to.along.set(i, along);
+    if constexpr (finite || path) to.along.set(i, along);
     const bool ahead = finite ? value_of(dot(mass, direction)) >= 0.0 : true;
-    mark(i, limits, ahead, value_of(b2), rays);
+    mark(i, limits, value_of(direction.z) < limit_z, ahead, value_of(b2), rays);
     if constexpr (finite)
       to.measure.set(i, b2);
     else
@@ -220,16 +220,16 @@ LENSPLANE_KERNEL void turn_about(const Deflector& deflector, double limit_z, Lin
         difference(scaled(across, r.cosine), scaled(direction, strength.arc * r.sine));
     const Vector<Number> out = sum(scaled(direction, r.cosine), scaled(across, strength.per_b * r.sine));
     Vector<Number> start = difference(mass, finite ? scaled(across_out, Number(limits.n)) : across_out);
-    double way = value_of(to.along.get(i));
     if constexpr (finite) {
-      const Number back = select(way < 0.0, to.along.get(i), Number(0.0));
-      start = difference(start, scaled(out, back));
-      way -= value_of(back);
+      const Number along = to.along.get(i);
+      start = difference(start, scaled(out, select(value_of(along) < 0.0, along, Number(0.0))));
     }
-    if constexpr (path) rays.path.v[i] += way + value_of(strength.arc);
+    if constexpr (path) {
+      const double along = value_of(to.along.get(i));
+      rays.path.v[i] += (finite && along < 0.0 ? 0.0 : along) + value_of(strength.arc);
+    }
     rays.start.set(i, start);
     rays.direction.set(i, out);
-    rays.irregular[i] = value_of(out.z) < limit_z ? rays.irregular[i] : 1.0;
   }
 }
 
@@ -265,7 +265,7 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
     const double b2 = dot(across, across);
     across_of.set(i, across);
     along_of.v[i] = along;
-    mark(i, limits, true, b2, rays);
+    mark(i, limits, d.z < limit_z, true, b2, rays);
     const double measure = measured<law, reach>(b2);
     measure_of.v[i] = measure;
     per_b2_of.v[i] = law == Law::Weak ? measure : reach == Reach::Far ? measure * measure : 1.0 / b2;
@@ -307,7 +307,6 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
     if constexpr (path) rays.path.v[i] += along + strength.arc;
     rays.start.set(i, dual_vector(start, start_x, start_y));
     rays.direction.set(i, dual_vector(out, out_x, out_y));
-    rays.irregular[i] = out.z < limit_z ? rays.irregular[i] : 1.0;
   }
 }
 
@@ -339,7 +338,7 @@ LENSPLANE_KERNEL void begin_sums(const Vec3& centre, const LineBatch<Number>& ra
 }
 
 template <class Number, Law law, Reach reach, bool finite, bool path>
-LENSPLANE_KERNEL void add_to_sums(const Deflector& deflector, LineBatch<Number>& rays,
+LENSPLANE_KERNEL void add_to_sums(const Deflector& deflector, double limit_z, LineBatch<Number>& rays,
                                   SumsBatch<Number>& sums) {
   const Vector<Number> mass = constant<Number>(deflector.position);
   const Limits<reach> limits(deflector, finite);
@@ -365,13 +364,13 @@ LENSPLANE_KERNEL void add_to_sums(const Deflector& deflector, LineBatch<Number>&
     sums.kink.set(i, sum(sums.kink.get(i), scaled(bend, along)));
     sums.shift.set(i, sum(sums.shift.get(i), scaled(bend, strength.arc)));
     if constexpr (path) sums.arc.v[i] += value_of(strength.arc);
-    mark(i, limits, ahead, value_of(b2), rays);
+    mark(i, limits, value_of(direction.z) < limit_z, ahead, value_of(b2), rays);
   }
 }
 
 /// A plane with several masses: the line turns by the sum of their bends.
 template <class Number, Reach reach, bool finite, bool path>
-LENSPLANE_KERNEL void turn_by_sums(const SumsBatch<Number>& sums, double limit_z, LineBatch<Number>& rays) {
+LENSPLANE_KERNEL void turn_by_sums(const SumsBatch<Number>& sums, LineBatch<Number>& rays) {
 #pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
     const Vector<Number> direction = rays.direction.get(i);
@@ -394,8 +393,7 @@ LENSPLANE_KERNEL void turn_by_sums(const SumsBatch<Number>& sums, double limit_z
     rays.start.set(i, start);
     rays.direction.set(i, out);
     if constexpr (path) rays.path.v[i] += way + sums.arc.v[i];
-    const bool fits = turn_fits<reach>(value_of(q)) & (value_of(out.z) < limit_z);
-    rays.irregular[i] = fits ? rays.irregular[i] : 1.0;
+    rays.irregular[i] = turn_fits<reach>(value_of(q)) ? rays.irregular[i] : 1.0;
   }
 }
 
@@ -445,9 +443,9 @@ void pass_with(const DeflectorPlane& plane, double limit_z, LineBatch<Number>& r
   for (const Deflector& deflector : plane.deflectors) {
     by_law(deflector.law, add_to_sums<Number, Law::Weak, reach, finite, path>,
            add_to_sums<Number, Law::SecondOrder, reach, finite, path>,
-           add_to_sums<Number, Law::Exact, reach, finite, path>)(deflector, rays, sums);
+           add_to_sums<Number, Law::Exact, reach, finite, path>)(deflector, limit_z, rays, sums);
   }
-  turn_by_sums<Number, reach, finite, path>(sums, limit_z, rays);
+  turn_by_sums<Number, reach, finite, path>(sums, rays);
 }
 
 template <class Number, Reach reach>
@@ -459,6 +457,16 @@ void pass_within(const DeflectorPlane& plane, bool finite, bool path, double lim
   } else {
     path ? pass_with<Number, reach, false, true>(plane, limit_z, rays)
          : pass_with<Number, reach, false, false>(plane, limit_z, rays);
+  }
+}
+
+/// Light that has turned back on its last plane: it may meet planes again.
+template <class Number>
+LENSPLANE_KERNEL void mark_turned_back(LineBatch<Number>& rays) {
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const bool done = (value_of(rays.direction.z.get(i)) < 0.0) | (rays.captured[i] != 0.0);
+    rays.irregular[i] = done ? rays.irregular[i] : 1.0;
   }
 }
 
@@ -489,7 +497,12 @@ void pass_plane(const Deflectors& deflectors, std::size_t plane, const PlanesWor
   } else {
     pass_within<Number, Reach::Near>(passed, deflectors.finite_distance, work.path, limit_z, rays);
   }
-  if (!deflectors.flat && !alone) mark_turned(rays);
+  if (alone) return;
+  if (!deflectors.flat) {
+    mark_turned(rays);
+  } else if (plane + 1 == deflectors.outward) {
+    mark_turned_back(rays);
+  }
 }
 
 template void pass_plane(const Deflectors&, std::size_t, const PlanesWork&, LineBatch<double>&);

@@ -52,12 +52,12 @@ void see_at_infinity(const Sight& sight, const Surface& surface, const LineBatch
   const bool plate = std::holds_alternative<Plate>(surface);
   const bool kernel = plate && camera.projection == Projection::Perspective && bends > 0;
   if (kernel) {
-    meet_plate(camera, batch.x, batch.y, rays, result);
+    meet_plate(camera, sight.slope, batch.x, batch.y, rays, result);
   } else {
     for (int i = 0; i < kBatchSize; ++i) {
       const FilmPosition film{batch.x[i], batch.y[i]};
       const auto first = direction_from_film<Number>(camera, film);
-      const auto last = rays.direction.get(i);
+      const auto last = bends > 0 ? rays.direction.get(i) : first;  // to the last bit
       set(sight, plate ? meet_plate(camera, film, first, last) : meet_sky(camera, first, last), i, result);
     }
   }

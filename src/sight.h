@@ -23,6 +23,7 @@ struct Sight {
   const Camera& camera;
   const std::vector<Surface>& surfaces;  // in camera axes
   const Effects& effects;
+  double slope = 0;                    // slope_per_pixel() of a perspective camera
   const Deflectors* finite = nullptr;  // the masses, when their finite distance from surfaces counts
 
   bool any_sphere() const;

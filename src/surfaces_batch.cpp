@@ -62,9 +62,9 @@ struct PlateTarget {
 };
 
 template <class Number>
-LENSPLANE_KERNEL void plate_coordinates(const Camera& camera, const BatchArray& x, const BatchArray& y,
-                                        const LineBatch<Number>& rays, const PlateTarget& to) {
-  const double slope = slope_per_pixel(camera);
+LENSPLANE_KERNEL void plate_coordinates(const Camera& camera, double slope, const BatchArray& x,
+                                        const BatchArray& y, const LineBatch<Number>& rays,
+                                        const PlateTarget& to) {
   const double pixels_per_slope = 1.0 / slope;
   const double centre_x = camera.width / 2.0, centre_y = camera.height / 2.0;
   const double per_width = 1.0 / camera.width, per_height = 1.0 / camera.height;
@@ -72,30 +72,31 @@ LENSPLANE_KERNEL void plate_coordinates(const Camera& camera, const BatchArray& 
 #pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
     const Vector<Number> d = rays.direction.get(i);
-    const Number per_depth = pixels_per_slope * reciprocal(-d.z);
+    const double d_z = value_of(d.z);
+    const double per_depth = -1.0 / d_z;
     const double right = x[i] - centre_x, up = centre_y - y[i];
     // How far the picture has moved, so that light which is hardly bent keeps all digits of its pixel.
-    const Number moved_right = d.x * per_depth - Number(right);
-    const Number moved_up = d.y * per_depth - Number(up);
-    const Number s = (Number(x[i]) + moved_right) * per_width;
-    const Number t = Number(1.0) - (Number(y[i]) - moved_up) * per_height;
-    const bool seen = (value_of(d.z) < 0.0) & (std::abs(value_of(s)) <= kPlateLimit) &
-                      (std::abs(value_of(t)) <= kPlateLimit);
-    target.s[i] = seen ? value_of(s) : 0.0;
-    target.t[i] = seen ? value_of(t) : 0.0;
+    const double slope_x = value_of(d.x) * per_depth, slope_y = value_of(d.y) * per_depth;
+    const double s = (x[i] + (slope_x * pixels_per_slope - right)) * per_width;
+    const double t = 1.0 - (y[i] - (slope_y * pixels_per_slope - up)) * per_height;
+    const bool seen = (d_z < 0.0) & (std::abs(s) <= kPlateLimit) & (std::abs(t) <= kPlateLimit);
+    target.s[i] = seen ? s : 0.0;
+    target.t[i] = seen ? t : 0.0;
     target.unseen[i] = seen ? 0.0 : 1.0;
     if constexpr (std::is_same_v<Number, Dual>) {
-      target.ds_dx[i] = seen ? s.dx : 0.0;
-      target.ds_dy[i] = seen ? s.dy : 0.0;
-      target.dt_dx[i] = seen ? t.dx : 0.0;
-      target.dt_dy[i] = seen ? t.dy : 0.0;
-      const double cross_x = d.y.dx * d.z.dy - d.z.dx * d.y.dy;
-      const double cross_y = d.z.dx * d.x.dy - d.x.dx * d.z.dy;
-      const double cross_z = d.x.dx * d.y.dy - d.y.dx * d.x.dy;
-      const double there = d.x.v * cross_x + d.y.v * cross_y + d.z.v * cross_z;
-      // A pixel's solid angle, in closed form; film y points down.
-      const double at_unit_depth = 1.0 + slope * slope * (right * right + up * up);
-      const double mu = slope * slope / (at_unit_depth * std::sqrt(at_unit_depth) * there);
+      // Derivatives of the slopes, in pixels.
+      const double scale = per_depth * pixels_per_slope;
+      const double x_dx = (d.x.dx + slope_x * d.z.dx) * scale, x_dy = (d.x.dy + slope_x * d.z.dy) * scale;
+      const double y_dx = (d.y.dx + slope_y * d.z.dx) * scale, y_dy = (d.y.dy + slope_y * d.z.dy) * scale;
+      target.ds_dx[i] = seen ? x_dx * per_width : 0.0;
+      target.ds_dy[i] = seen ? x_dy * per_width : 0.0;
+      target.dt_dx[i] = seen ? y_dx * per_height : 0.0;
+      target.dt_dy[i] = seen ? y_dy * per_height : 0.0;
+      // Solid angle by area of the film: the cube of the depth of a unit vector. Film y points down.
+      const double depth2 = 1.0 + slope * slope * (right * right + up * up);
+      const double depth2_there = 1.0 + slope_x * slope_x + slope_y * slope_y;
+      const double ratio = depth2_there / depth2;
+      const double mu = ratio * std::sqrt(ratio) / (x_dy * y_dx - x_dx * y_dy);
       const double least = mu > -kLargestMagnification ? mu : -kLargestMagnification;
       const double clamped = least < kLargestMagnification ? least : kLargestMagnification;
       target.magnification[i] = seen ? clamped : 0.0;
@@ -106,15 +107,15 @@ LENSPLANE_KERNEL void plate_coordinates(const Camera& camera, const BatchArray& 
 }  // namespace
 
 template <class Number>
-void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, const LineBatch<Number>& rays,
-                SurfaceBatch& surface) {
+void meet_plate(const Camera& camera, double slope, const BatchArray& x, const BatchArray& y,
+                const LineBatch<Number>& rays, SurfaceBatch& surface) {
   alignas(64) BatchArray unseen;
   PlateTarget target{surface.s, surface.t, unseen, nullptr, nullptr, nullptr, nullptr, nullptr};
   if constexpr (std::is_same_v<Number, Dual>) {
     PassBatch& p = *surface.passes;
     target = {surface.s, surface.t, unseen, p.ds_dx, p.ds_dy, p.dt_dx, p.dt_dy, p.magnification};
   }
-  plate_coordinates(camera, x, y, rays, target);
+  plate_coordinates(camera, slope, x, y, rays, target);
   std::fill_n(surface.distance, kBatchSize, std::numeric_limits<double>::infinity());
   surface.outcome.fill(Outcome::Hit);
   if (!any_of(unseen)) return;
@@ -129,9 +130,9 @@ template void enter_sphere(const Sphere&, const VectorLane<double>&, const Vecto
                            BatchArray&);
 template void enter_sphere(const Sphere&, const VectorLane<Dual>&, const VectorLane<Dual>&, const Ends&,
                            BatchArray&);
-template void meet_plate(const Camera&, const BatchArray&, const BatchArray&, const LineBatch<double>&,
-                         SurfaceBatch&);
-template void meet_plate(const Camera&, const BatchArray&, const BatchArray&, const LineBatch<Dual>&,
+template void meet_plate(const Camera&, double, const BatchArray&, const BatchArray&,
+                         const LineBatch<double>&, SurfaceBatch&);
+template void meet_plate(const Camera&, double, const BatchArray&, const BatchArray&, const LineBatch<Dual>&,
                          SurfaceBatch&);
 
 }  // namespace lensplane

@@ -48,10 +48,11 @@ template <class Number>
 void enter_sphere(const Sphere& sphere, const VectorLane<Number>& start, const VectorLane<Number>& direction,
                   const Ends& ends, BatchArray& entry);
 
-/// (s, t) of a perspective camera's plate at infinity for rays that left through (x[i], y[i]) and were bent,
-/// outcomes, and with Dual numbers Jacobian and magnification into `surface.passes`.
+/// (s, t) of a perspective camera's (`slope`: its slope_per_pixel()) plate at infinity for rays that left
+/// through (x[i], y[i]) and were bent, outcomes, and with Dual numbers Jacobian and magnification into
+/// `surface.passes`.
 template <class Number>
-void meet_plate(const Camera& camera, const BatchArray& x, const BatchArray& y, const LineBatch<Number>& rays,
-                SurfaceBatch& surface);
+void meet_plate(const Camera& camera, double slope, const BatchArray& x, const BatchArray& y,
+                const LineBatch<Number>& rays, SurfaceBatch& surface);
 
 }  // namespace lensplane

@@ -85,7 +85,7 @@ bool march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
   Ends ends, chord_ends;
   const bool spheres = sight.any_sphere();
   const PlanesWork work{reach, spheres || sight.effects.delay, sight.effects.delay};
-  start_lines(sight.camera, batch.x, batch.y, rays);
+  start_lines(sight.camera, sight.slope, batch.x, batch.y, work.path, rays);
   if (deflectors.blind) std::fill_n(rays.captured, kBatchSize, 1.0);
   const std::size_t count = deflectors.blind ? 0 : deflectors.outward;
   for (std::size_t k = 0; k < count; ++k) {
@@ -117,11 +117,12 @@ bool march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
 Tracer::Tracer(const Scene& scene, Plan plan) : camera_(scene.camera), plan_(std::move(plan)) {
   assert(camera_.width > 0 && camera_.height > 0 && camera_.overscan >= 0);
   assert(camera_.projection != Projection::Perspective || (camera_.fov_rad > 0 && camera_.fov_rad < kPi));
+  if (camera_.projection == Projection::Perspective) slope_ = slope_per_pixel(camera_);
   for (const Surface& surface : scene.surfaces) surfaces_.push_back(camera_from_world(camera_, surface));
 }
 
 Sight Tracer::sight(const Deflectors* finite) const {
-  return {camera_, surfaces_, plan_.effects, finite};
+  return {camera_, surfaces_, plan_.effects, slope_, finite};
 }
 
 TraceBatch Tracer::make_batch() const {
@@ -189,7 +190,7 @@ void Tracer::trace_by_paper(TraceBatch& batch) const {
   Ends ends;
   const Sight view = sight();
   const bool spheres = view.any_sphere();
-  start_lines(camera_, batch.x, batch.y, rays);
+  start_lines(camera_, slope_, batch.x, batch.y, true, rays);
   int bends = 0;
   for (const LensPlane& plane : plan_.planes) {
     if (!(plane.distance > 0.0)) continue;

@@ -41,6 +41,7 @@ class Tracer {
   Camera camera_;
   Plan plan_;
   std::vector<Surface> surfaces_;
+  double slope_ = 0;  // slope_per_pixel() of a perspective camera
 };
 
 }  // namespace lensplane

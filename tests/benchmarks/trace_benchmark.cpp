@@ -21,6 +21,8 @@
 namespace lensplane {
 namespace {
 
+constexpr int kRowLength = 64;
+
 /// The paper's Fig. 6: three sources at three depths, not in a line.
 Scene three_sources(const Surface& surface = Plate{}) {
   Scene scene;
@@ -60,19 +62,26 @@ TraceSettings by(Method method) {
   return settings;
 }
 
+/// A batch of pixel centres, kRowLength to the row.
+void place_rays(int left, int top, TraceBatch& batch) {
+  for (int row = 0; row < kBatchSize / kRowLength; ++row) {
+    for (int k = 0; k < kRowLength; ++k) {
+      batch.x[row * kRowLength + k] = left + k + 0.5;
+      batch.y[row * kRowLength + k] = top + row + 0.5;
+    }
+  }
+}
+
 /// Traces every `sparse`th batch of the frame, by tiles as maps are.
 void trace_frame(benchmark::State& state, const Scene& scene, const TraceSettings& settings, int sparse = 1) {
   const Tracer tracer(scene, plan_trace(scene, settings));
   TraceBatch batch = tracer.make_batch();
   std::int64_t rays = 0;
-  const int width = 64, height = kBatchSize / width;
+  const int width = kRowLength, height = kBatchSize / width;
   for (auto _ : state) {
     for (int top = 0; top < scene.camera.height; top += height * sparse) {
       for (int left = 0; left < scene.camera.width; left += width) {
-        for (int i = 0; i < kBatchSize; ++i) {
-          batch.x[i] = left + i % width + 0.5;
-          batch.y[i] = top + i / width + 0.5;
-        }
+        place_rays(left, top, batch);
         tracer.trace(batch);
         benchmark::DoNotOptimize(batch.surfaces.front().s);
         rays += kBatchSize;
@@ -182,15 +191,14 @@ void scalar_reference(benchmark::State& state) {
 }
 
 struct BareRays {
-  alignas(64) BatchArray x, y, z, dx, dy, dz, ax, ay, az, per_b2, s, t;
+  alignas(64) BatchArray film_x, film_y, x, y, z, dx, dy, dz, ax, ay, az, per_b2, s, t;
 };
 
-LENSPLANE_KERNEL void bare_start(const Camera& camera, const BatchArray& x, const BatchArray& y,
-                                 BareRays& r) {
-  const double slope = slope_per_pixel(camera), cx = camera.width / 2.0, cy = camera.height / 2.0;
+LENSPLANE_KERNEL void bare_start(const Camera& camera, double slope, BareRays& r) {
+  const double cx = camera.width / 2.0, cy = camera.height / 2.0;
 #pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
-    const double right = (x[i] - cx) * slope, up = (cy - y[i]) * slope;
+    const double right = (r.film_x[i] - cx) * slope, up = (cy - r.film_y[i]) * slope;
     const double scale = 1.0 / std::sqrt(right * right + up * up + 1.0);
     r.x[i] = r.y[i] = r.z[i] = 0.0;
     r.dx[i] = right * scale, r.dy[i] = up * scale, r.dz[i] = -scale;
@@ -221,8 +229,7 @@ LENSPLANE_KERNEL void bare_bend(const Lens& lens, BareRays& r) {
   }
 }
 
-LENSPLANE_KERNEL void bare_plate(const Camera& camera, BareRays& r) {
-  const double slope = slope_per_pixel(camera);
+LENSPLANE_KERNEL void bare_plate(const Camera& camera, double slope, BareRays& r) {
   const double to_s = 1.0 / (slope * camera.width), to_t = 1.0 / (slope * camera.height);
 #pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
@@ -235,15 +242,17 @@ LENSPLANE_KERNEL void bare_plate(const Camera& camera, BareRays& r) {
 void bare_loop(benchmark::State& state) {
   const Scene scene = three_sources();
   static BareRays rays;
-  alignas(64) BatchArray x, y;
+  const double slope = slope_per_pixel(scene.camera);
   std::int64_t count = 0;
   for (auto _ : state) {
     for (int row = 0; row < scene.camera.height; ++row) {
       for (int column = 0; column < scene.camera.width; column += kBatchSize) {
-        for (int i = 0; i < kBatchSize; ++i) x[i] = column + i + 0.5, y[i] = row + 0.5;
-        bare_start(scene.camera, x, y, rays);
+        for (int i = 0; i < kBatchSize; ++i) {
+          rays.film_x[i] = column + i + 0.5, rays.film_y[i] = row + 0.5;
+        }
+        bare_start(scene.camera, slope, rays);
         for (const Lens& lens : scene.lenses) bare_bend(lens, rays);
-        bare_plate(scene.camera, rays);
+        bare_plate(scene.camera, slope, rays);
         benchmark::DoNotOptimize(rays.s);
         count += kBatchSize;
       }

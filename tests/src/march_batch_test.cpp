@@ -38,7 +38,7 @@ TEST(MarchBatch, AgreesWithTheReferenceThroughRandomPlanes) {
     Film film;
     random_film(random, camera, film);
     const auto rays = std::make_unique<LineBatch<double>>();
-    start_lines(camera, film.x, film.y, *rays);
+    start_lines(camera, slope_per_pixel(camera), film.x, film.y, true, *rays);
     for (const LensPlane& plane : planes) {
       advance_rays(plane.distance, *rays);
       for (const Source& source : plane.sources) bend_rays(source, *rays);
@@ -74,7 +74,7 @@ TEST(MarchBatch, OneBendAgreesToItsErrorBoundOverAllAngles) {
     Film film;
     random_film(random, camera, film);
     const auto rays = std::make_unique<LineBatch<double>>();
-    start_lines(camera, film.x, film.y, *rays);
+    start_lines(camera, slope_per_pixel(camera), film.x, film.y, true, *rays);
     advance_rays(1, *rays);
     const Source source = source_at(-1, {alpha * 5 / 4, 3, 4});  // about b = 5 from every ray
     bend_rays(source, *rays);
@@ -97,7 +97,7 @@ TEST(MarchBatch, MarksWhatItCannotDo) {
     std::fill_n(film.x, kBatchSize, camera.width / 2.0);
     std::fill_n(film.y, kBatchSize, camera.height / 2.0);
     const auto rays = std::make_unique<LineBatch<double>>();
-    start_lines(camera, film.x, film.y, *rays);
+    start_lines(camera, slope_per_pixel(camera), film.x, film.y, true, *rays);
     advance_rays(1, *rays);
     bend_rays(source_at(-1, source), *rays);
     return rays->irregular[0] != 0;

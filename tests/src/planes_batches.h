@@ -38,7 +38,7 @@ template <class Number>
 std::unique_ptr<LineBatch<Number>> passed(const Camera& camera, const Deflectors& deflectors,
                                           const PlanesWork& work, const Film& film) {
   auto rays = std::make_unique<LineBatch<Number>>();
-  start_lines(camera, film.x, film.y, *rays);
+  start_lines(camera, slope_per_pixel(camera), film.x, film.y, true, *rays);
   for (std::size_t k = 0; k < deflectors.outward; ++k) pass_plane(deflectors, k, work, *rays);
   return rays;
 }

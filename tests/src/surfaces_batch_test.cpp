@@ -26,7 +26,7 @@ TEST(SurfacesBatch, EntersSpheresWhereTheReferenceDoes) {
     Film film;
     random_film(random, camera, film);
     const auto rays = std::make_unique<LineBatch<double>>();
-    start_lines(camera, film.x, film.y, *rays);
+    start_lines(camera, slope_per_pixel(camera), film.x, film.y, true, *rays);
     Ends ends;
     end_at_plane(end_distance, *rays, ends);
     alignas(64) BatchArray entry;
