@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 namespace lensplane {
@@ -44,26 +43,29 @@ constexpr std::array kChannels = {
             [](const SurfaceBatch& b, int i) { return b.outcome[i] == Outcome::Hit ? b.distance[i] : 0.0; }},
 };
 
-/// Finite, whatever comes.
-float finite_float(double value) {
+/// Stores numbers as floats, finite whatever comes.
+LENSPLANE_KERNEL void store(const double* from, int count, float* to) {
   constexpr double kLargest = std::numeric_limits<float>::max();
-  return std::isnan(value) ? 0.0F : static_cast<float>(std::clamp(value, -kLargest, kLargest));
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    const double number = from[i] == from[i] ? from[i] : 0.0;
+    const double bounded = number < kLargest ? number : kLargest;
+    to[i] = static_cast<float>(bounded > -kLargest ? bounded : -kLargest);
+  }
 }
 
 void store(const SurfaceBatch& surface, int first, int count, std::size_t at, LensMap& map) {
-  for (int i = 0; i < count; ++i) {
-    const std::size_t k = at + static_cast<std::size_t>(i);
-    map.s[k] = finite_float(surface.s[first + i]);
-    map.t[k] = finite_float(surface.t[first + i]);
-    map.valid[k] = surface.outcome[static_cast<std::size_t>(first + i)] == Outcome::Hit ? 1.0F : 0.0F;
-  }
+  store(surface.s + first, count, &map.s[at]);
+  store(surface.t + first, count, &map.t[at]);
+  const Outcome* outcomes = surface.outcome.data() + first;
+  float* valid = &map.valid[at];
+  for (int i = 0; i < count; ++i) valid[i] = outcomes[i] == Outcome::Hit ? 1.0F : 0.0F;
   std::size_t pass = 0;
+  BatchArray values;
   for (const Channel& channel : kChannels) {
     if (pass == map.passes.size() || map.passes[pass].channel != channel.name) continue;
-    std::vector<float>& values = map.passes[pass++].values;
-    for (int i = 0; i < count; ++i) {
-      values[at + static_cast<std::size_t>(i)] = finite_float(channel.value(surface, first + i));
-    }
+    for (int i = 0; i < count; ++i) values[i] = channel.value(surface, first + i);
+    store(values, count, &map.passes[pass++].values[at]);
   }
 }
 
@@ -108,11 +110,11 @@ void trace_tile(const Tracer& tracer, const Tile& tile, RowRange rows, TraceBatc
   }
 }
 
-LensMap blank_map(int width, int height, const Effects& effects) {
-  const std::vector<float> blank(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0F);
-  LensMap map{width, height, blank, blank, blank, {}};
+LensMap unset_map(int width, int height, const Effects& effects) {
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  LensMap map{width, height, FloatBuffer(pixels), FloatBuffer(pixels), FloatBuffer(pixels), {}};
   for (const Channel& channel : kChannels) {
-    if (effects.*channel.effect) map.passes.push_back({channel.name, blank});
+    if (effects.*channel.effect) map.passes.push_back({channel.name, FloatBuffer(pixels)});
   }
   return map;
 }
@@ -126,8 +128,10 @@ std::vector<LensMap> trace_maps(const Tracer& tracer) {
 std::vector<LensMap> trace_maps(const Tracer& tracer, RowRange rows) {
   const int width = tracer.camera().full_width();
   const int size = tracer.plan().tiles.size;
-  std::vector<LensMap> maps(tracer.surfaces().size(),
-                            blank_map(width, rows.end - rows.begin, tracer.plan().effects));
+  std::vector<LensMap> maps;
+  for (std::size_t k = 0; k < tracer.surfaces().size(); ++k) {
+    maps.push_back(unset_map(width, rows.end - rows.begin, tracer.plan().effects));
+  }
   const int columns = (width + size - 1) / size;
   const int first = rows.begin / size;
   const int last = (rows.end + size - 1) / size;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/float_buffer.h"
 #include "src/tracer.h"
 
 namespace lensplane {
@@ -16,14 +17,14 @@ namespace lensplane {
 /// infinity) is the largest float.
 struct Pass {
   std::string_view channel;  // "lensing.magnification", ...
-  std::vector<float> values;
+  FloatBuffer values;
 };
 
 /// The map of one surface: row by row from the top, the overscan included. Where `valid` is 0, s = t = 0.
 struct LensMap {
   int width = 0;
   int height = 0;
-  std::vector<float> s, t, valid;
+  FloatBuffer s, t, valid;
   std::vector<Pass> passes;  // what the plan's effects call for, in the order of kEffectNames
 };
 

@@ -8,11 +8,14 @@
 // effects and outcomes that nobody asked for cost is the difference between the two.
 
 #include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "src/constants.h"
+#include "src/lens_map.h"
 #include "src/march.h"
 #include "src/planes_march.h"
 #include "src/rotation.h"
@@ -172,6 +175,22 @@ void sources_on_ten_planes(benchmark::State& state) {
   trace_frame(state, many_sources(count, 10), told(Law::Weak), count < 100 ? 4 : count < 1000 ? 32 : 256);
 }
 
+// Whole maps band by band, as the program writes them, by frame width and by threads; the seconds are real ones.
+void map_of_width(benchmark::State& state) {
+  Scene scene = three_sources();
+  scene.camera.width = static_cast<int>(state.range(0));
+  scene.camera.height = scene.camera.width * 9 / 16;
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(state.range(1)));
+  const Tracer tracer(scene, plan_trace(scene, told(Law::Weak)));
+  for (auto _ : state) {
+    for (int row = 0; row < scene.camera.height; row += 256) {
+      benchmark::DoNotOptimize(trace_maps(tracer, {row, std::min(row + 256, scene.camera.height)}));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * scene.camera.width * scene.camera.height);
+}
+
 /// The readable reference, a ray at a time; every 16th ray of every 16th row.
 void scalar_reference(benchmark::State& state) {
   const Scene scene = three_sources();
@@ -282,6 +301,11 @@ BENCHMARK(kishi)->Unit(benchmark::kMillisecond);
 BENCHMARK(geodesic_to_1em9)->Unit(benchmark::kMillisecond);
 BENCHMARK(hundred_sources_on_ten_planes)->Unit(benchmark::kMillisecond);
 BENCHMARK(sources_on_ten_planes)->Unit(benchmark::kMillisecond)->RangeMultiplier(10)->Range(1, 10000);
+BENCHMARK(map_of_width)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->ArgsProduct({{480, 960, 1920, 3840, 7680, 15360}, {1}})
+    ->Args({3840, 2});
 BENCHMARK(scalar_reference)->Unit(benchmark::kMillisecond);
 
 }  // namespace
