@@ -94,7 +94,7 @@ template <class Number>
 }
 
 /// ln(u) for u = 1 - x, given both because neither holds the other's last digits. Relative error kLogError
-/// for 1e-300 <= u <= 1; some number without meaning for other u.
+/// for 1e-300 <= u <= 1e300, on both sides of 1; some number without meaning for other u.
 [[gnu::always_inline]] inline double log_of_share(double x, double u) {
   // u = 2^k f with f in [sqrt(1/2), sqrt(2)): k stands in the bits of u above the 52 of the mantissa.
   constexpr auto kRootHalf = std::bit_cast<std::uint64_t>(0.5 * std::numbers::sqrt2);

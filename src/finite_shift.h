@@ -5,8 +5,12 @@
 //
 //   2 m (r - z)/b = 2 m b/(r + z),   r = hypot(z, b),
 //
-// towards the mass, z being the way from there; before it by (2 m/b) (r + (z z_c - b^2)/r_c), with z_c and
-// r_c the same of the camera (integrate d^2y/dz^2 = -2 m b/r^3 from there).
+// towards the mass, z being the way from there, negative before it. Before it by
+//
+//   (2 m/b) (r + (z z_c - b^2)/r_c),   r_c = hypot(z_c, b),
+//
+// z_c being the way from the camera to the closest approach, positive for a mass ahead: so it is 0 at the
+// camera, z = -z_c (integrate d^2y/dz^2 = -2 m b/r^3 from there).
 
 #pragma once
 

@@ -34,11 +34,11 @@ struct BallHit {
 };
 
 /// A ray and what it meets. Where it is captured there is no asymptote, but there may be hits on the way;
-/// what is not there is 0.
+/// what is not there is 0, and its direction is a number without derivatives.
 template <class N>
 struct GeodesicRay {
   bool captured = false;
-  Vector<N> direction{N(0.0)};  // at infinity, unit vector
+  Vector<N> direction{N(0.0)};  // unit vector, at infinity; of a captured ray where it was followed to
   Vector<N> position{N(0.0)};   // of the straight line that the ray approaches: nearest to the start, metres
 
   /// Coordinate light time from the start, less that of a plane wave with the final direction which passes

@@ -153,7 +153,10 @@ void GeodesicFlight<N>::arrive() {
 template <class N>
 void GeodesicFlight<N>::end_captured() {
   flies_ = false;
-  ray_ = {.captured = true, .hits = std::move(ray_.hits)};
+  // On a mass and inside a horizon it has not set out: there the medium has no index.
+  const Vec3 heading = value_of(at_.p).normalized();
+  const Vec3 last = steps_ > 0 && is_finite(heading) ? heading : value_of(launch_.direction);
+  ray_ = {.captured = true, .direction = {N(last.x), N(last.y), N(last.z)}, .hits = std::move(ray_.hits)};
 }
 
 template <class N>

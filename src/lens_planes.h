@@ -27,7 +27,7 @@ struct Source {
 struct LensPlane {
   Vec3 normal;                  // unit vector, away from the camera: (0, 0, -1) for a flat screen
   double distance;              // metres; negative behind a flat screen's camera
-  std::vector<Source> sources;  // in the order in which the scene lists them; by `planes`, see below
+  std::vector<Source> sources;  // in the order of the scene; by `planes`, in that of their positions
 };
 
 /// Sources whose depths differ by no more than this share of their distance from the camera stand on one
@@ -38,11 +38,16 @@ inline constexpr double kEqualDepth = 1e-12;
 /// their centre of mass: what bends light then is their sum. Farther ones add up their bends.
 inline constexpr double kOneBody = 1e-6;
 
+/// So are sources nearer to one another than this share of their distance from the camera: turning them to
+/// camera axes rounds their positions by up to as much.
+inline constexpr double kOnePlace = 4e-15;
+
 /// The planes of `scene` by `method`, by rising distance: those behind a flat screen's camera (which only
 /// light that has turned back can reach) come first. By Kishi's method there is one plane: the sources in
 /// front of the camera, moved along its axis to their mass-weighted mean depth; sources beside and behind the
 /// camera do not count there, and without a flat screen each source keeps its own plane.
-/// By `planes` the order of the sources in the scene has no influence: they are sorted by their positions.
+/// By `planes` the order of the sources in the scene has no influence: sources that are one body become one,
+/// by the number of one of them, whatever plane they would stand on, and bodies are sorted by their positions.
 std::vector<LensPlane> lens_planes(const Scene& scene, Method method);
 
 }  // namespace lensplane

@@ -3,13 +3,12 @@
 #include "src/plan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 
 #include "src/plan_bounds.h"
+#include "src/plan_words.h"
 
 namespace lensplane {
 namespace {
@@ -19,17 +18,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // How the tolerance is shared out: a quarter each for lenses left out, for the laws of single tiles, for the
 // laws of single lenses, and for finite distances.
 constexpr double kShare = 0.25;
-
-std::string counted(std::size_t count, std::string_view noun) {
-  return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
-}
-
-std::string in_pixels(double px) {
-  if (!(px < kInfinity)) return "without limit";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g px", px);
-  return text;
-}
 
 TileLevels tiles_of(const Camera& camera) {
   TileLevels tiles;
@@ -93,18 +81,6 @@ void choose_laws(const FilmBounds& bounds, double budget_px, std::vector<LensPla
   }
 }
 
-std::string reason_of(const LensPlan& lens, const LensBound& bound) {
-  if (lens.culled) return "would move no pixel by more than " + in_pixels(lens.moves_px);
-  const std::string near = bound.wild ? "; exact near it" : "";
-  if (lens.law == Law::Weak)
-    return "more terms would move no pixel by more than " + in_pixels(bound.weak_px) + near;
-  if (lens.law == Law::SecondOrder) {
-    return "the weak law would be up to " + in_pixels(bound.weak_px) + " off, this one " +
-           in_pixels(bound.second_order_px) + near;
-  }
-  return "the second order would be up to " + in_pixels(bound.second_order_px) + " off" + near;
-}
-
 /// Which recipe serves each tile: 0 all weak, 1 at most second order, 2 every lens by its own law, 3
 /// everything.
 void choose_levels(const FilmBounds& bounds, double budget_px, TileLevels& tiles) {
@@ -117,7 +93,7 @@ void choose_levels(const FilmBounds& bounds, double budget_px, TileLevels& tiles
 }
 
 EffectPlan finite_distance_plan(const TraceSettings& settings, bool flat, const FilmBounds& bounds) {
-  EffectPlan effect{"finite distance", settings.finite_distance == Choice::On, 0.0, "asked for"};
+  EffectPlan effect{"finite distance", settings.finite_distance == Choice::On, 0.0, "asked for", 0.0};
   for (const LensBound& lens : bounds.lenses) effect.bound_px += lens.finite_px;
   if (!flat) {
     effect.on = true;
@@ -129,6 +105,14 @@ EffectPlan finite_distance_plan(const TraceSettings& settings, bool flat, const 
     effect.reason = effect.on ? "it moves pixels by up to " + in_pixels(effect.bound_px)
                               : "it would move no pixel by more than " + in_pixels(effect.bound_px);
   }
+  effect.share = effect.on ? 1.0 : 0.0;
+  const bool wild =
+      std::any_of(bounds.tiles.begin(), bounds.tiles.end(), [](const TileBound& tile) { return tile.wild; });
+  // Only with the law left open it is on there nevertheless.
+  if (wild && !effect.on && (settings.law || settings.finite_distance == Choice::Off)) {
+    effect.bound_px = kInfinity;
+    effect.reason += "; near masses there is no limit";
+  }
   return effect;
 }
 
@@ -136,7 +120,8 @@ std::vector<EffectPlan> called_for(const Effects& effects) {
   std::vector<EffectPlan> plans;
   for (const EffectName& entry : kEffectNames) {
     const bool on = effects.*entry.effect;
-    plans.push_back({std::string(entry.name), on, 0.0, on ? "asked for" : "no output asks for it"});
+    plans.push_back(
+        {std::string(entry.name), on, 0.0, on ? "asked for" : "no output asks for it", on ? 1.0 : 0.0});
   }
   return plans;
 }
@@ -158,6 +143,25 @@ void plan_as_told(const Scene& scene, const TraceSettings& settings, const Effec
   if (!finite.on) plan.bound_px += finite.bound_px;
 }
 
+/// Where the whole film lies near masses nothing is left out, no law but the exact one is used, and no bound
+/// is known.
+void say_all_exact(const Scene& scene, std::vector<LensPlan>& lenses) {
+  for (LensPlan& lens : lenses) {
+    if (scene.lenses[lens.lens].m == 0.0) continue;
+    lens.culled = false;
+    lens.law = Law::Exact;
+    lens.moves_px = kInfinity;
+    lens.bound_px = 0.0;
+  }
+}
+
+/// Says of the finite distance, which is off elsewhere, that it is on near masses.
+void say_finite_near_masses(double near_masses, EffectPlan& finite) {
+  finite.reason = reason_near_masses(near_masses, finite.bound_px);
+  finite.share = near_masses;
+  finite.on = near_masses == 1.0;
+}
+
 void plan_within_tolerance(const Scene& scene, const TraceSettings& settings, const EffectPlan& finite,
                            const Deflectors& everything, const FilmBounds& bounds, Plan& plan) {
   const double share = kShare * settings.tolerance_px;
@@ -173,10 +177,20 @@ void plan_within_tolerance(const Scene& scene, const TraceSettings& settings, co
   const bool given_off = settings.finite_distance == Choice::Off;
   plan.recipes = {recipe(all, keeps, at_most(Law::Weak)), recipe(all, keeps, at_most(Law::SecondOrder)),
                   recipe(all, keeps, at_most(Law::Exact)), given_off ? all : everything};
+  const double near_masses = recipe_shares(plan, scene.camera).back();
+  plan.near_masses = near_masses;
+  if (near_masses == 1.0) say_all_exact(scene, plan.lenses);
+  if (!finite.on && !given_off && near_masses > 0.0)
+    say_finite_near_masses(near_masses, plan.choices.front());
+  std::vector<bool> stands(scene.lenses.size());  // for itself, and perhaps for others at its place
+  for (const DeflectorPlane& plane : everything.planes) {
+    for (const Deflector& deflector : plane.deflectors) stands[deflector.lens] = true;
+  }
   double culled = 0.0, laws = 0.0, tiles = 0.0;
   for (std::size_t i = 0; i < plan.lenses.size(); ++i) {
     LensPlan& lens = plan.lenses[i];
-    if (scene.lenses[i].m > 0.0) lens.reason = reason_of(lens, bounds.lenses[i]);
+    if (scene.lenses[i].m > 0.0) lens.reason = reason_of(lens, bounds.lenses[i], near_masses);
+    if (scene.lenses[i].m > 0.0 && !stands[i]) lens.reason = "one body with a lens at its place";
     (lens.culled ? culled : laws) += lens.bound_px;
   }
   for (std::size_t i = 0; i < bounds.tiles.size(); ++i) {
@@ -184,7 +198,7 @@ void plan_within_tolerance(const Scene& scene, const TraceSettings& settings, co
     if (level == 0) tiles = std::max(tiles, bounds.tiles[i].weak_px);
     if (level == 1) tiles = std::max(tiles, bounds.tiles[i].second_order_px);
   }
-  plan.bound_px = culled + laws + tiles + (finite.on ? 0.0 : finite.bound_px);
+  plan.bound_px = culled + laws + tiles + (plan.choices.front().on ? 0.0 : finite.bound_px);
 }
 
 void plan_planes(const Scene& scene, const TraceSettings& settings, Plan& plan) {
@@ -235,6 +249,29 @@ std::size_t level_at(const Plan& plan, const Camera& camera, FilmPosition film) 
                      tile(film.x, tiles.columns)];
 }
 
+std::vector<double> recipe_shares(const Plan& plan, const Camera& camera) {
+  const TileLevels& tiles = plan.tiles;
+  std::vector<double> shares(plan.recipes.size(), 0.0);
+  if (shares.empty()) return shares;
+  if (tiles.level.empty()) {
+    shares.back() = 1.0;
+    return shares;
+  }
+  const std::int64_t width = camera.full_width(), height = camera.full_height();
+  std::vector<std::int64_t> pixels(plan.recipes.size(), 0);
+  for (int row = 0; row < tiles.rows; ++row) {
+    for (int column = 0; column < tiles.columns; ++column) {
+      const std::int64_t across = std::min<std::int64_t>(tiles.size, width - column * tiles.size);
+      const std::int64_t down = std::min<std::int64_t>(tiles.size, height - row * tiles.size);
+      pixels[tiles.level[static_cast<std::size_t>(row * tiles.columns + column)]] += across * down;
+    }
+  }
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    shares[i] = static_cast<double>(pixels[i]) / static_cast<double>(width * height);
+  }
+  return shares;
+}
+
 LevelRange levels_of(const Plan& plan, const Camera& camera, const BatchArray& x, const BatchArray& y) {
   const std::size_t last = plan.recipes.size() - 1;
   if (plan.tiles.level.empty()) return {last, last};
@@ -250,36 +287,6 @@ LevelRange levels_of(const Plan& plan, const Camera& camera, const BatchArray& x
     }
   }
   return range;
-}
-
-std::string describe(const Plan& plan) {
-  std::string text(name_of(plan.method));
-  if (plan.method == Method::Geodesic) {
-    char tolerance[32];
-    std::snprintf(tolerance, sizeof tolerance, "%.2g", plan.geodesic_tolerance);
-    std::size_t sources = 0;
-    for (const LensPlane& plane : plan.planes) sources += plane.sources.size();
-    return text + ": " + std::to_string(sources) + (sources == 1 ? " lens" : " lenses") +
-           ", curved rays to " + tolerance + " rad";
-  }
-  if (plan.method != Method::Planes) {
-    std::size_t sources = 0;
-    for (const LensPlane& plane : plan.planes) sources += plane.sources.size();
-    return text + ": weak law, " + counted(sources, "source") + " on " + counted(plan.planes.size(), "plane");
-  }
-  std::array<std::size_t, 3> by_law{};
-  std::size_t culled = 0;
-  for (const LensPlan& lens : plan.lenses) {
-    ++(lens.culled ? culled : by_law[static_cast<std::size_t>(lens.law)]);
-  }
-  text += ": " + std::to_string(plan.lenses.size()) + (plan.lenses.size() == 1 ? " lens" : " lenses");
-  for (const LawEntry& entry : kLaws) {
-    const std::size_t count = by_law[static_cast<std::size_t>(entry.law)];
-    if (count > 0) text += ", " + std::to_string(count) + " " + std::string(entry.name);
-  }
-  if (culled > 0) text += ", " + std::to_string(culled) + " culled";
-  text += plan.recipes.front().finite_distance ? "; finite distance on" : "; finite distance off";
-  return text + "; within " + in_pixels(plan.bound_px);
 }
 
 }  // namespace lensplane

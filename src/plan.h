@@ -35,8 +35,8 @@ struct TraceSettings {
 /// What becomes of one lens of the scene.
 struct LensPlan {
   std::size_t lens = 0;  // its number in the scene
-  bool culled = false;   // left out
-  Law law = Law::Weak;   // the highest that it needs anywhere on the film
+  bool culled = false;   // left out, but near masses
+  Law law = Law::Weak;   // the highest that it needs; near masses all are exact, here if the whole film is
   double moves_px = 0;   // how far it moves what is seen, at most, over the film; infinite near its shadow
   double bound_px = 0;   // how much of that is left out, at most
   std::string reason;
@@ -48,6 +48,7 @@ struct EffectPlan {
   bool on = false;
   double bound_px = 0;  // how far it would move what is seen, at most, if it is off
   std::string reason;
+  double share = 0;  // of the film where it is simulated; of the finite distance perhaps only near masses
 };
 
 /// Square tiles of the film, overscan included, from its upper left; each has its laws.
@@ -67,8 +68,9 @@ struct Plan {
   double geodesic_tolerance = 1e-9;  // radians
 
   std::vector<LensPlan> lenses;     // by `planes`, in the order of the scene
-  std::vector<EffectPlan> choices;  // every effect, on or off
-  double bound_px = 0;              // all that is left out, at most
+  std::vector<EffectPlan> choices;  // every effect; by `planes` first the finite distance
+  double near_masses = 0;  // the share of the film whose tiles are wild (plan_bounds.h): nothing is left out
+  double bound_px = 0;     // all that is left out, at most
 };
 
 /// Rounding, in pixels, comes on top of all bounds.
@@ -86,13 +88,13 @@ Plan plan_trace(const Scene& scene, Method method);
 /// The recipe of the tile in which a film position lies.
 std::size_t level_at(const Plan& plan, const Camera& camera, FilmPosition film);
 
+/// The share of the film, overscan included, that each recipe traces.
+std::vector<double> recipe_shares(const Plan& plan, const Camera& camera);
+
 /// The least and the highest recipe of the tiles that the film positions span.
 struct LevelRange {
   std::size_t least, most;
 };
 LevelRange levels_of(const Plan& plan, const Camera& camera, const BatchArray& x, const BatchArray& y);
-
-/// The plan in one line: "planes: 3 lenses, 2 weak, 1 exact; finite distance off; within 0.021 px".
-std::string describe(const Plan& plan);
 
 }  // namespace lensplane

@@ -13,8 +13,9 @@
 //   alpha = (2 m/b') (1 + cos R) + [law(b') - 4 m/b'] h(cos R),    h(c) = (1 + c)^2 (2 - c)/4,
 //
 // where b' = n b is the impact parameter far away for a ray that starts at b here (deflectors.h), and R the
-// angle at the camera between the ray and the foot point's direction from the mass: cos R = 1 for a mass far
-// ahead, 0 beside the camera, -1 behind it. h is the share of the law's higher orders that lies ahead of the
+// angle at the camera between the ray's line and the mass: cos R = along/r, `along` being the way that the
+// line runs from the camera to its closest approach, and r = hypot(along, b). It is 1 for a mass far ahead, 0
+// beside the camera, -1 behind it. h is the share of the law's higher orders that lies ahead of the
 // camera, as that of an integral of b^3/r^4 would be to within 2 %. Where a mass is behind (cos R < 0), the
 // ray is never nearer to it than the camera, whose distance takes the place of b in the bracket.
 

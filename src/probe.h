@@ -15,7 +15,7 @@ namespace lensplane {
 struct ProbedCrossing {
   std::size_t lens;  // its number in the scene
   double path;       // metres along the ray to the closest approach
-  double b_over_m;   // impact parameter over geometric mass
+  double b_over_m;   // from the mass to the ray's line, over the geometric mass; see Passage
   double alpha;      // radians
 };
 

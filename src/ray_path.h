@@ -31,7 +31,8 @@ struct Passage {
   std::size_t lens;  // its number in the scene
   double m;          // geometric mass, metres
   double distance;   // metres from the camera to the mass
-  Number b;          // impact parameter, metres
+  Number b;          // metres from the mass to the ray's line, in coordinates; capture at 3 sqrt(3) m over the
+                     // index n of the medium at the camera (deflectors.h)
   Number alpha;      // angle by which it bent the ray, radians
   Number path;  // metres along the ray from the camera to its closest approach; negative behind the start
 };

@@ -12,15 +12,21 @@ namespace lensplane {
 namespace {
 
 template <class Number>
-SurfaceHit<Number> hit_of_ball(const Sphere& sphere, const Vector<Number>& first, const BallHit<Number>& ball,
-                               bool captured) {
-  SurfaceHit<Number> hit;
-  hit.outcome = captured ? Outcome::Captured : Outcome::Missed;
-  if (!ball.hit) return hit;
-  hit = meet_sphere_at(sphere, first, ball.point);
+SurfaceHit<Number> hit_of_ball(const Sphere& sphere, const Vector<Number>& first,
+                               const BallHit<Number>& ball) {
+  SurfaceHit<Number> hit = meet_sphere_at(sphere, first, ball.point);
   hit.distance = value_of(ball.length);
   hit.direction = ball.direction;
   hit.delay = value_of(ball.delay);
+  return hit;
+}
+
+/// What a ray that meets nothing has: its direction as far as it goes.
+template <class Number>
+SurfaceHit<Number> no_hit(const GeodesicRay<Number>& ray) {
+  SurfaceHit<Number> hit;
+  hit.outcome = ray.captured ? Outcome::Captured : Outcome::Missed;
+  hit.direction = value_of(ray.direction);
   return hit;
 }
 
@@ -50,9 +56,10 @@ std::vector<SurfaceHit<Number>> hits_of(const Sight& sight, FilmPosition film, c
   auto ball = ray.hits.begin();
   for (const Surface& surface : sight.surfaces) {
     if (const auto* sphere = std::get_if<Sphere>(&surface)) {
-      hits.push_back(hit_of_ball(*sphere, first, *ball++, ray.captured));
+      hits.push_back(ball->hit ? hit_of_ball(*sphere, first, *ball) : no_hit(ray));
+      ++ball;
     } else if (ray.captured) {
-      hits.emplace_back().outcome = Outcome::Captured;
+      hits.push_back(no_hit(ray));
     } else {
       hits.push_back(std::holds_alternative<Plate>(surface)
                          ? meet_plate(sight.camera, film, first, ray.direction)

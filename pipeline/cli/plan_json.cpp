@@ -6,6 +6,7 @@
 
 #include "pipeline/image/version.h"
 #include "src/constants.h"
+#include "src/plan_words.h"
 
 namespace lensplane {
 namespace {
@@ -49,16 +50,20 @@ Json json_from_plan(const Shot& shot, const PlannedFrame& planned) {
                {"law", planned.settings.law ? name_of(*planned.settings.law) : "auto"},
                {"tolerance_px", planned.settings.tolerance_px},
                {"bound_px", plan.bound_px},
+               {"near_masses", plan.near_masses},
                {"summary", describe(plan)}};
   if (plan.method == Method::Geodesic) json["geodesic_tolerance"] = plan.geodesic_tolerance;
   for (const char* list : {"lenses", "effects", "recipes"}) json[list] = Json::array();
   for (const LensPlan& lens : lenses_of(planned))
     json["lenses"].push_back(json_from_lens(shot, planned, lens));
   for (const EffectPlan& effect : plan.choices) {
-    json["effects"].push_back(
-        {{"name", effect.name}, {"on", effect.on}, {"bound_px", effect.bound_px}, {"reason", effect.reason}});
+    json["effects"].push_back({{"name", effect.name},
+                               {"on", effect.on},
+                               {"share", effect.share},
+                               {"bound_px", effect.bound_px},
+                               {"reason", effect.reason}});
   }
-  const std::vector<double> shares = shares_of(planned);
+  const std::vector<double> shares = recipe_shares(plan, planned.scene.camera);
   for (std::size_t i = 0; i < plan.recipes.size(); ++i)
     json["recipes"].push_back(json_from_recipe(shot, plan.recipes[i], shares[i]));
   json["tiles"] = {{"size", plan.tiles.size},

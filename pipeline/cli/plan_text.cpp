@@ -11,6 +11,7 @@
 
 #include "pipeline/cli/table.h"
 #include "pipeline/shot/location.h"
+#include "src/plan_words.h"
 
 namespace lensplane {
 namespace {
@@ -70,24 +71,42 @@ std::string lens_table(const Shot& shot, const PlannedFrame& planned) {
   return "\n" + text_from_rows(rows) + (rest.empty() ? "" : summary_of(planned, rest));
 }
 
+std::string state_of(const EffectPlan& effect) {
+  if (effect.on) return "on";
+  return effect.share > 0 ? "near masses" : "off";
+}
+
 std::string effect_table(const Plan& plan) {
   if (plan.choices.empty()) return "";
   Rows rows = {{"effect", "", "left out at most", "why"}};
   for (const EffectPlan& effect : plan.choices) {
+    const bool leaves_out = !effect.on && effect.bound_px > 0;
     rows.push_back(
-        {effect.name, effect.on ? "on" : "off", effect.on ? "-" : pixels(effect.bound_px), effect.reason});
+        {effect.name, state_of(effect), leaves_out ? pixels(effect.bound_px) : "-", effect.reason});
   }
   return "\n" + text_from_rows(rows);
 }
 
+/// One row for all recipes that read the same.
 std::string recipe_table(const PlannedFrame& planned) {
   const Plan& plan = planned.plan;
-  if (plan.recipes.empty()) return "";
-  Rows rows = {{"share of the film", "lenses by their laws"}};
-  const std::vector<double> shares = shares_of(planned);
+  const std::vector<double> shares = recipe_shares(plan, planned.scene.camera);
+  std::vector<std::pair<std::vector<std::string>, double>> kinds;
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    if (shares[i] > 0) rows.push_back({fmt::format("{:.1f} %", 100.0 * shares[i]), laws_of(plan.recipes[i])});
+    if (!(shares[i] > 0)) continue;
+    const Deflectors& recipe = plan.recipes[i];
+    const std::vector<std::string> cells = {recipe.finite_distance ? "on" : "off", laws_of(recipe)};
+    const auto known =
+        std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == cells; });
+    if (known == kinds.end()) {
+      kinds.emplace_back(cells, shares[i]);
+    } else {
+      known->second += shares[i];
+    }
   }
+  if (kinds.empty()) return "";
+  Rows rows = {{"share of the film", "finite distance", "lenses by their laws"}};
+  for (const auto& [cells, share] : kinds) rows.push_back({in_percent(share), cells[0], cells[1]});
   return "\n" + text_from_rows(rows);
 }
 

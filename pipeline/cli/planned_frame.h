@@ -24,7 +24,4 @@ std::vector<LensPlan> lenses_of(const PlannedFrame& planned);
 /// Metres from the camera to a lens.
 double distance_of(const PlannedFrame& planned, const LensPlan& lens);
 
-/// The share of the film, overscan included, that each recipe of the plan traces.
-std::vector<double> shares_of(const PlannedFrame& planned);
-
 }  // namespace lensplane

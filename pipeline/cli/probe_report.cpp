@@ -11,6 +11,7 @@
 #include "pipeline/cli/table.h"
 #include "pipeline/image/version.h"
 #include "src/constants.h"
+#include "src/plan_words.h"
 
 namespace lensplane {
 namespace {

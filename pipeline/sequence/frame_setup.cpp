@@ -6,6 +6,7 @@
 #include "pipeline/sequence/fingerprint.h"
 #include "pipeline/sequence/output_paths.h"
 #include "pipeline/shot/shot_scene.h"
+#include "src/plan_words.h"
 
 namespace lensplane {
 namespace {

@@ -139,5 +139,19 @@ TEST(LogOfShare, IsTheLibrarysLogarithm) {
   EXPECT_EQ(log_of_share(0.0, 1.0), 0.0);
 }
 
+TEST(LogOfShare, HoldsBeyondOne) {
+  // As the Shapiro delay takes it: of a ratio of lengths, given as 1 - ratio and ratio.
+  for (int i = 0; i < kSamples; ++i) {
+    const double ratio = std::pow(10.0, 300.0 * (i + 0.5) / kSamples);
+    ASSERT_LT(relative_error(log_of_share(1.0 - ratio, ratio), std::log(static_cast<long double>(ratio))),
+              kLogError)
+        << ratio;
+    const double near = 1.0 + std::pow(10.0, -15.0 * (i + 0.5) / kSamples);
+    ASSERT_LT(relative_error(log_of_share(1.0 - near, near), std::log(static_cast<long double>(near))),
+              kLogError)
+        << near;
+  }
+}
+
 }  // namespace
 }  // namespace lensplane

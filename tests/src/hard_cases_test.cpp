@@ -266,6 +266,33 @@ TEST(HardCases, ManyEqualSourcesAtOnePointAreOneOfTheirMass) {
   expect_finite_maps(view_of(std::vector<Lens>(1000, Lens{10.0, place})));
 }
 
+TEST(HardCases, TwoSourcesOneBitApartAreOneOfTheirMass) {
+  const Vec3 place(3.0, -2.0, -40.0);
+  for (const Projection projection : {Projection::Perspective, Projection::LatLong, Projection::Fisheye}) {
+    Scene one = view_of({{2.0, place}}, 60 * kDegree);
+    one.camera.projection = projection;
+    one.surfaces = {LatLong{}};
+    for (const double towards : {0.0, 100.0, -100.0}) {
+      const Vec3 near(std::nextafter(place.x, towards), std::nextafter(place.y, towards),
+                      std::nextafter(place.z, towards));
+      Scene two = one, turned = one;
+      two.lenses = {{1.0, place}, {1.0, near}};
+      turned.lenses = {{1.0, near}, {1.0, place}};
+      EXPECT_EQ(largest_difference(two, turned), 0.0);
+      // Close to the shadow, on both sides of the mass, as everywhere on the film.
+      const Deflectors body = deflectors_of(one, Law::Exact, true),
+                       pair = deflectors_of(two, Law::Exact, true);
+      for (const double b_over_m : {-20.0, -6.0, -5.3, -4.0, 4.0, 5.3, 6.0, 20.0}) {
+        const Vec3 aim = (place + Vec3(0.0, b_over_m * 2.0, 0.0)).normalized();
+        const RayPath<double> a = march_planes<double>(body, aim), b = march_planes<double>(pair, aim);
+        ASSERT_EQ(a.captured, b.captured) << b_over_m;
+        EXPECT_LT(angle_between(a.segments.back().direction, b.segments.back().direction), 1e-13) << b_over_m;
+      }
+      EXPECT_LT(largest_difference(one, two), 1e-12);
+    }
+  }
+}
+
 TEST(HardCases, TwoSources1em9MetresApart) {
   const Scene one = view_of({{1e4, {0, 0, -1e9}}});
   const Scene two = view_of({{5e3, {0, 0, -1e9}}, {5e3, {1e-9, 0, -1e9}}});
@@ -375,6 +402,42 @@ TEST(HardCases, RotationMirrorScaleAndOrder) {
   for (Lens& lens : scaled.lenses) lens.m *= 1024, lens.position *= 1024;
   scaled.surfaces = scene.surfaces = {Plate{}, LatLong{}};
   EXPECT_EQ(largest_difference(scene, scaled), 0.0);
+}
+
+TEST(HardCases, BetweenTwoMassesInLineLightWindsAndIsSentBackAndForth) {
+  // Light that all but winds round the far mass comes back to the camera, and the mass behind it.
+  Scene scene = view_of({{1.0, {0, 0, -1000}}, {1.0, {0, 0, 15}}});
+  scene.camera.projection = Projection::LatLong;
+  scene.surfaces = {LatLong{}, Sphere{{0, 0, 40}, 5, {}}, Sphere{{300, 0, 0}, 100, {}}};
+  constexpr double kAngle = 0.0049056575377135628;
+  const Deflectors exact = deflectors_of(scene, Law::Exact, true);
+  const RayPath<double> path = march_planes<double>(exact, Vec3(std::sin(kAngle), 0, -std::cos(kAngle)));
+  for (const RaySegment<double>& segment : path.segments) {
+    for (const Vec3& v : {segment.start, segment.direction}) EXPECT_TRUE(std::isfinite(v.x + v.y + v.z));
+  }
+  for (const Passage<double>& p : path.passages) EXPECT_TRUE(std::isfinite(p.b + p.alpha + p.path));
+
+  // The same on the film, bit by bit around it, and in batches.
+  TraceSettings settings = with_everything(Method::Planes);
+  settings.law = Law::Exact;
+  const Tracer tracer(scene, plan_trace(scene, settings));
+  TraceBatch batch = tracer.make_batch();
+  const double x = scene.camera.width * (0.5 + kAngle / (2 * kPi));
+  for (int i = 0; i < kBatchSize; ++i) {
+    batch.x[i] = x * (1 + (i - 64) * 2.3e-16);
+    batch.y[i] = 7.5;
+  }
+  tracer.trace(batch);
+  for (const SurfaceBatch& surface : batch.surfaces) {
+    const PassBatch& p = *surface.passes;
+    for (int i = 0; i < kBatchSize; ++i) {
+      EXPECT_TRUE(std::isfinite(surface.s[i] + surface.t[i] + p.ds_dx[i] + p.ds_dy[i] + p.dt_dx[i] +
+                                p.dt_dy[i] + p.magnification[i] + p.delay[i] + p.dir_x[i] + p.dir_y[i] +
+                                p.dir_z[i]))
+          << batch.x[i];
+    }
+  }
+  expect_finite_maps(scene);
 }
 
 TEST(HardCases, FloatsAreNeverInfinite) {

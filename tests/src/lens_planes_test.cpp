@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/constants.h"
 
@@ -86,6 +88,75 @@ TEST(LensPlanes, KishiMeanDepthDoesNotOverflow) {
       lens_planes(scene_with({{1e300, {0, 0, -1e300}}, {1e300, {0, 0, -1e300}}}), Method::Kishi);
   ASSERT_EQ(planes.size(), 1U);
   EXPECT_DOUBLE_EQ(planes[0].distance, 1e300);
+}
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// `p` moved by one bit in every coordinate.
+Vec3 one_bit_from(const Vec3& p, double towards) {
+  return {std::nextafter(p.x, towards), std::nextafter(p.y, towards), std::nextafter(p.z, towards)};
+}
+
+/// All sources of `lenses` in the order of the planes, the same for every order of the lenses.
+std::vector<Source> sources_in_any_order(std::vector<Lens> lenses, Projection projection) {
+  std::vector<Source> sources;
+  const auto by_z = [](const Lens& a, const Lens& b) { return a.position.z < b.position.z; };
+  std::sort(lenses.begin(), lenses.end(), by_z);
+  for (bool first = true; first || std::next_permutation(lenses.begin(), lenses.end(), by_z); first = false) {
+    Scene scene = scene_with(lenses);
+    scene.camera.projection = projection;
+    std::vector<Source> here;
+    for (const LensPlane& plane : lens_planes(scene, Method::Planes)) {
+      here.insert(here.end(), plane.sources.begin(), plane.sources.end());
+    }
+    if (first) sources = here;
+    EXPECT_EQ(here.size(), sources.size());
+    for (std::size_t i = 0; i < std::min(here.size(), sources.size()); ++i) {
+      EXPECT_EQ(here[i].m, sources[i].m);
+      EXPECT_EQ(here[i].position, sources[i].position);
+    }
+  }
+  return sources;
+}
+
+TEST(LensPlanes, SourcesOneBitApartAreOneBodyInAnyOrderAndView) {
+  const Vec3 place(2e8, -3e8, -1e9), beside(2e8, 4e8, -1e9 * (1 + 1e-15));
+  for (const Projection projection : {Projection::Perspective, Projection::LatLong, Projection::Fisheye}) {
+    for (const double m : {1e-9, 1.0, 1e4}) {  // the light ones' horizons are much smaller than the bit
+      for (const double towards : {-kInfinity, 0.0, kInfinity}) {
+        // Between the two in the order of x, y and z stands one that has nothing to do with them.
+        const auto sources =
+            sources_in_any_order({{m, place}, {m, one_bit_from(place, towards)}, {m, beside}}, projection);
+        ASSERT_EQ(sources.size(), 2U) << m << " " << towards;
+        const Source& body = sources[sources[0].m < sources[1].m ? 1 : 0];
+        EXPECT_EQ(body.m, 2 * m);
+        EXPECT_LE((body.position - place).length(), 4e-16 * place.length());
+      }
+    }
+  }
+}
+
+TEST(LensPlanes, SourcesWithinAShareOfTheirMassAreOneBodyAcrossPlanes) {
+  for (const Projection projection : {Projection::Perspective, Projection::LatLong}) {
+    const auto at_depth = [&](double apart) {
+      return sources_in_any_order({{1, {0, 0, -100}}, {3, {0, 0, -100 - apart}}}, projection);
+    };
+    const auto one = at_depth(0.9 * kOneBody * 4);
+    ASSERT_EQ(one.size(), 1U);
+    EXPECT_DOUBLE_EQ(one[0].position.z, -100 - 0.75 * 0.9 * kOneBody * 4);
+    EXPECT_EQ(at_depth(1.1 * kOneBody * 4).size(), 2U);
+  }
+}
+
+TEST(LensPlanes, AnInfiniteMassTakesInTheOthersWhereItIs) {
+  const Vec3 place(3, 4, -1e9);
+  for (const Projection projection : {Projection::Perspective, Projection::LatLong}) {
+    const auto sources =
+        sources_in_any_order({{1, {0, 0, -10}}, {kInfinity, place}, {2, {9, 9, 9}}}, projection);
+    ASSERT_EQ(sources.size(), 1U);
+    EXPECT_EQ(sources[0].m, kInfinity);
+    EXPECT_EQ(sources[0].position, place);
+  }
 }
 
 }  // namespace

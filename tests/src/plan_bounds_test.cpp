@@ -26,6 +26,7 @@ class RandomScenes {
   double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
   double spread(double from, double to) { return std::exp(uniform(std::log(from), std::log(to))); }
 
+  /// With skies, some with plates.
   Scene next() {
     Scene scene;
     Camera& camera = scene.camera;
@@ -40,6 +41,19 @@ class RandomScenes {
     const double distance = spread(1e3, 1e20);
     const auto count = 1 + random_() % 6;
     for (unsigned long i = 0; i < count; ++i) add_lens(distance, scene);
+    return scene;
+  }
+
+  /// The same with balls as well: before, between and behind the masses, some round them.
+  Scene next_with_balls() {
+    Scene scene = next();
+    const double z = -scene.lenses.front().position.z;
+    for (int i = 0; i < 2; ++i) {
+      const double distance = std::abs(z) * spread(0.2, 20);
+      const double width = std::min(1.0, std::tan(std::min(scene.camera.fov_rad, 2.8) / 2));
+      const Vec3 centre(distance * width * uniform(-1, 1), distance * width * uniform(-0.7, 0.7), -distance);
+      scene.surfaces.push_back(Sphere{centre, distance * width * uniform(0.1, 0.6), {}});
+    }
     return scene;
   }
 
@@ -59,7 +73,18 @@ class RandomScenes {
   std::mt19937 random_;
 };
 
-/// How far apart two results are, in pixels; nothing where either is not valid.
+/// Where a ray meets a ball, and its direction there. The camera of all scenes stands at the origin.
+struct Meeting {
+  Vec3 point, direction;
+};
+Meeting meeting(const Sphere& sphere, const SurfaceBatch& surface, int i) {
+  const PassBatch& passes = *surface.passes;
+  return {sphere.centre + sphere_normal_from_st({surface.s[i], surface.t[i]}) * sphere.radius,
+          {passes.dir_x[i], passes.dir_y[i], passes.dir_z[i]}};
+}
+
+/// How far apart two results are, in pixels; nothing where either is not valid. On a ball it is how far aside
+/// one ray is from where the other meets it, seen from the camera.
 std::optional<double> pixels_between(const Scene& scene, std::size_t k, const SurfaceBatch& a,
                                      const SurfaceBatch& b, int i) {
   const auto hit = [i](const SurfaceBatch& s) {
@@ -69,54 +94,96 @@ std::optional<double> pixels_between(const Scene& scene, std::size_t k, const Su
   if (std::holds_alternative<Plate>(scene.surfaces[k])) {
     return std::hypot((a.s[i] - b.s[i]) * scene.camera.width, (a.t[i] - b.t[i]) * scene.camera.height);
   }
+  if (const auto* sphere = std::get_if<Sphere>(&scene.surfaces[k])) {
+    const Meeting one = meeting(*sphere, a, i), other = meeting(*sphere, b, i);
+    const double aside = (one.point - other.point).cross(other.direction).length();
+    return aside / one.point.length() / pixel_angle(scene.camera);
+  }
   const Vec3 apart = sky_direction_from_st({a.s[i], a.t[i]}) - sky_direction_from_st({b.s[i], b.t[i]});
   return apart.length() / pixel_angle(scene.camera);
 }
 
-TEST(PlanBounds, WhatIsLeftOutMovesNothingByMore) {
-  RandomScenes scenes(7);
-  TraceSettings everything;
-  everything.law = Law::Exact;
-  everything.finite_distance = Choice::On;
-  int by_level[4] = {}, culled = 0, without_finite = 0;
+/// How often each simplification was used, and how near errors come to what may be left out.
+struct Tally {
+  int by_level[4] = {}, culled = 0, without_finite = 0, on_balls = 0;
   double nearest = 0.0;  // error over tolerance
-  for (int n = 0; n < 3000; ++n) {
-    const Scene scene = scenes.next();
-    TraceSettings settings;
-    settings.tolerance_px = scenes.spread(1e-3, 1);
-    const Tracer planned(scene, plan_trace(scene, settings));
-    const Tracer reference(scene, plan_trace(scene, everything));
-    const Plan& plan = planned.plan();
-    ASSERT_LE(plan.bound_px, settings.tolerance_px);
-    for (const std::uint8_t level : plan.tiles.level) ++by_level[level];
-    for (const LensPlan& lens : plan.lenses) culled += lens.culled;
-    without_finite += !plan.choices.front().on;
+  double nearest_on_balls = 0.0;
+};
 
-    TraceBatch a = planned.make_batch(), b = reference.make_batch();
+void count_choices(const Plan& plan, Tally& tally) {
+  for (const std::uint8_t level : plan.tiles.level) ++tally.by_level[level];
+  for (const LensPlan& lens : plan.lenses) tally.culled += lens.culled;
+  tally.without_finite += !plan.choices.front().on;
+}
+
+/// Compares what random film positions see by the plan with what they see with everything on.
+void hold_to_its_word(const Scene& scene, double tolerance_px, RandomScenes& random, Tally& tally) {
+  Effects direction;
+  direction.direction = true;
+  const TraceSettings settings{Method::Planes, std::nullopt, tolerance_px, Choice::Auto, direction};
+  const TraceSettings everything{Method::Planes, Law::Exact, tolerance_px, Choice::On, direction};
+  const Tracer planned(scene, plan_trace(scene, settings));
+  const Tracer reference(scene, plan_trace(scene, everything));
+  const Plan& plan = planned.plan();
+  ASSERT_LE(plan.bound_px, tolerance_px);
+  count_choices(plan, tally);
+  TraceBatch a = planned.make_batch(), b = reference.make_batch();
+  for (int i = 0; i < kBatchSize; ++i) {
+    a.x[i] = b.x[i] = random.uniform(0, scene.camera.width);
+    a.y[i] = b.y[i] = random.uniform(0, scene.camera.height);
+  }
+  planned.trace(a);
+  reference.trace(b);
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+    const bool ball = std::holds_alternative<Sphere>(scene.surfaces[k]);
     for (int i = 0; i < kBatchSize; ++i) {
-      a.x[i] = b.x[i] = scenes.uniform(0, scene.camera.width);
-      a.y[i] = b.y[i] = scenes.uniform(0, scene.camera.height);
-    }
-    planned.trace(a);
-    reference.trace(b);
-    for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
-      for (int i = 0; i < kBatchSize; ++i) {
-        // Near captured light everything is simulated: both agree on who is captured.
-        ASSERT_EQ(a.surfaces[k].outcome[i] == Outcome::Captured,
-                  b.surfaces[k].outcome[i] == Outcome::Captured);
-        const auto error = pixels_between(scene, k, a.surfaces[k], b.surfaces[k], i);
-        if (!error) continue;
-        ASSERT_LE(*error, plan.bound_px + kRoundingPx)
-            << "scene " << n << " film " << a.x[i] << " " << a.y[i];
-        nearest = std::max(nearest, *error / settings.tolerance_px);
-      }
+      // Near captured light everything is simulated: both agree on who is captured.
+      const auto ray = static_cast<std::size_t>(i);
+      ASSERT_EQ(a.surfaces[k].outcome[ray] == Outcome::Captured,
+                b.surfaces[k].outcome[ray] == Outcome::Captured);
+      const auto error = pixels_between(scene, k, a.surfaces[k], b.surfaces[k], i);
+      if (!error) continue;
+      ASSERT_LE(*error, plan.bound_px + kRoundingPx)
+          << "surface " << k << " film " << a.x[i] << " " << a.y[i];
+      double& nearest = ball ? tally.nearest_on_balls : tally.nearest;
+      nearest = std::max(nearest, *error / tolerance_px);
+      tally.on_balls += ball;
     }
   }
+}
+
+TEST(PlanBounds, WhatIsLeftOutMovesNothingByMore) {
+  RandomScenes scenes(7);
+  Tally tally;
+  for (int n = 0; n < 3000; ++n) {
+    SCOPED_TRACE(n);
+    const Scene scene = scenes.next();
+    const double tolerance_px = scenes.spread(1e-3, 1);
+    hold_to_its_word(scene, tolerance_px, scenes, tally);
+    ASSERT_FALSE(HasFatalFailure());
+  }
   // Not by doing everything always: each simplification is used, and some come near what they may leave out.
-  for (const int count : by_level) EXPECT_GT(count, 50);
-  EXPECT_GT(culled, 1000);
-  EXPECT_GT(without_finite, 500);
-  EXPECT_GT(nearest, 0.05);
+  for (const int count : tally.by_level) EXPECT_GT(count, 50);
+  EXPECT_GT(tally.culled, 1000);
+  EXPECT_GT(tally.without_finite, 500);
+  EXPECT_GT(tally.nearest, 0.05);
+}
+
+TEST(PlanBounds, WhatIsLeftOutMovesNothingByMoreOnBalls) {
+  RandomScenes scenes(8);
+  Tally tally;
+  for (int n = 0; n < 2000; ++n) {
+    SCOPED_TRACE(n);
+    const Scene scene = scenes.next_with_balls();
+    const double tolerance_px = scenes.spread(1e-3, 1);
+    hold_to_its_word(scene, tolerance_px, scenes, tally);
+    ASSERT_FALSE(HasFatalFailure());
+  }
+  for (const int count : tally.by_level) EXPECT_GT(count, 50);
+  EXPECT_GT(tally.on_balls, 10000);
+  EXPECT_GT(tally.culled, 300);
+  EXPECT_GT(tally.without_finite, 100);
+  EXPECT_GT(tally.nearest_on_balls, 0.05);
 }
 
 TEST(PlanBounds, WithoutLensesNothingIsLeftOut) {

@@ -4,16 +4,20 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/src/scenes.h"
-
 namespace lensplane {
 namespace {
 
-TEST(Plan, SaysInOneLineWhatIsSimulated) {
-  const Scene scene = seed_fig6(100);
-  EXPECT_EQ(describe(plan_trace(scene, Method::ShinotsukaMakino)),
-            "shinotsuka-makino: weak law, 3 sources on 3 planes");
-  EXPECT_EQ(describe(plan_trace(scene, Method::Kishi)), "kishi: weak law, 3 sources on 1 plane");
+TEST(Plan, SharesAreThoseOfTheTilesThatTheFilmCovers) {
+  Camera camera;
+  camera.width = 96;
+  camera.height = 32;
+  camera.overscan = 2;
+  Plan plan;
+  EXPECT_TRUE(recipe_shares(plan, camera).empty());
+  plan.recipes.resize(3);
+  EXPECT_EQ(recipe_shares(plan, camera), (std::vector<double>{0, 0, 1}));
+  plan.tiles = {64, 2, 1, {1, 0}};
+  EXPECT_EQ(recipe_shares(plan, camera), (std::vector<double>{0.36, 0.64, 0}));
 }
 
 TEST(Plan, MethodsHaveTheirNames) {

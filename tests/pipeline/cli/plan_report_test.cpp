@@ -33,12 +33,16 @@ std::pair<Shot, PlannedFrame> example(std::size_t count) {
                            culled ? "too far" : "near"});
   }
   plan.lenses[0].moves_px = std::numeric_limits<double>::infinity();
-  plan.choices = {{"finite distance", false, 0.03, "small"}, {"jacobian", true, 0, "asked for"}};
+  plan.choices = {{"finite distance", false, 0.03, "small", 0.36},
+                  {"jacobian", true, 0, "asked for", 1},
+                  {"delay", false, 0, "no output asks for it", 0}};
+  plan.near_masses = 0.36;
   const Deflector weak{1476.625, {0, 0, -1e3}, Law::Weak, 0, 1};
   const Deflector exact{1476.625, {0, 0, -1e3}, Law::Exact, 2, 1};
   plan.recipes.resize(2);
   plan.recipes[0].planes = {{{0, 0, 0}, {weak}}};
   plan.recipes[1].planes = {{{0, 0, 0}, {weak, exact}}};
+  plan.recipes[1].finite_distance = true;
   plan.tiles = {64, 2, 1, {0, 1}};
   return {shot, planned};
 }
@@ -53,13 +57,21 @@ TEST(PlanText, SaysWhatBecomesOfEveryLensEffectAndTile) {
             "  a1    1 Msun  1 km      culled        0.25 px        0.0625 px         too far\n"
             "  a2    1 Msun  1 km      second-order  4 px           0.0625 px         near\n"
             "\n"
-            "  effect                left out at most  why\n"
-            "  finite distance  off  0.03 px           small\n"
-            "  jacobian         on   -                 asked for\n"
+            "  effect                        left out at most  why\n"
+            "  finite distance  near masses  0.03 px           small\n"
+            "  jacobian         on           -                 asked for\n"
+            "  delay            off          -                 no output asks for it\n"
             "\n"
-            "  share of the film  lenses by their laws\n"
-            "  64.0 %             weak 1\n"
-            "  36.0 %             weak 1, exact 1\n");
+            "  share of the film  finite distance  lenses by their laws\n"
+            "  64.0 %             off              weak 1\n"
+            "  36.0 %             on               weak 1, exact 1\n");
+}
+
+TEST(PlanText, RecipesThatReadTheSameShareARow) {
+  auto [shot, planned] = example(3);
+  planned.plan.recipes[1] = planned.plan.recipes[0];
+  EXPECT_THAT(text_from_plan(shot, planned),
+              HasSubstr("laws\n  100.0 %            off              weak 1\n"));
 }
 
 TEST(PlanText, OfManyLensesThoseThatMoveMostAreListed) {
@@ -106,7 +118,9 @@ TEST(PlanJson, HoldsEverythingAndNullForWhatHasNoLimit) {
   EXPECT_EQ(frame["lenses"][2]["reason"], "near");
   EXPECT_EQ(frame["effects"][0]["name"], "finite distance");
   EXPECT_EQ(frame["effects"][0]["bound_px"], 0.03);
+  EXPECT_EQ(frame["effects"][0]["share"], 0.36);
   EXPECT_EQ(frame["effects"][1]["on"], true);
+  EXPECT_EQ(frame["near_masses"], 0.36);
   EXPECT_DOUBLE_EQ(frame["recipes"][0]["share"].get<double>(), 0.64);
   EXPECT_EQ(frame["recipes"][1]["deflectors"][1]["lens"], "a2");
   EXPECT_EQ(frame["recipes"][1]["deflectors"][1]["law"], "exact");
