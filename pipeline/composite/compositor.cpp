@@ -6,159 +6,206 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
-#include <numeric>
+#include <cmath>
+#include <utility>
+
+#include "pipeline/composite/edge_finder.h"
 
 namespace lensplane {
 namespace {
 
-constexpr int kPixelsPerBatch = kBatchSize / kRaysPerPixel;
+constexpr int kTileSize = 64;  // pixels, as the plan's tiles
 
-/// Film positions of the rays of the kPixelsPerBatch pixels of a row that begin at `column`. At the end of a
-/// row some may lie beyond it; their rays are not used.
-void place_rays(const Camera& camera, int row, int column, TraceBatch& batch) {
-  const double left = column - camera.overscan;
-  const double top = row - camera.overscan;
-  for (int i = 0; i < kBatchSize; ++i) {
-    const int ray = i % kRaysPerPixel;
-    batch.x[i] = left + i / kRaysPerPixel + (ray % kRaysPerAxis + 0.5) / kRaysPerAxis;
-    batch.y[i] = top + (ray / kRaysPerAxis + 0.5) / kRaysPerAxis;
-  }
-}
-
-bool in_frame(const Camera& camera, double x, double y) {
-  return x > 0 && x < camera.width && y > 0 && y < camera.height;
-}
-
-/// Calls `use(row, column, pixels, batch)` for every batch of traced rays, rows in parallel.
-template <class Use>
-void trace_pixels(const Tracer& tracer, Use use) {
-  const Camera& camera = tracer.camera();
-  tbb::parallel_for(tbb::blocked_range<int>(0, camera.full_height()),
-                    [&](const tbb::blocked_range<int>& rows) {
-                      TraceBatch batch = tracer.make_batch();
-                      for (int row = rows.begin(); row != rows.end(); ++row) {
-                        for (int column = 0; column < camera.full_width(); column += kPixelsPerBatch) {
-                          place_rays(camera, row, column, batch);
-                          tracer.trace(batch);
-                          use(row, column, std::min(kPixelsPerBatch, camera.full_width() - column), batch);
-                        }
-                      }
-                    });
-}
-
-/// Rays of each surface, counted row by row so that no two threads meet.
-class HitCounter {
- public:
-  explicit HitCounter(const Tracer& tracer)
-      : camera_(tracer.camera()),
-        surfaces_(tracer.surfaces().size()),
-        counts_(surfaces_ * static_cast<std::size_t>(camera_.full_height()), 0) {}
-
-  void add(int row, int pixels, const TraceBatch& batch) {
-    for (std::size_t k = 0; k < surfaces_; ++k) {
-      std::int64_t hits = 0;
-      for (int i = 0; i < pixels * kRaysPerPixel; ++i) {
-        const bool hit = batch.surfaces[k].outcome[static_cast<std::size_t>(i)] == Outcome::Hit;
-        hits += hit && in_frame(camera_, batch.x[i], batch.y[i]);
-      }
-      counts_[static_cast<std::size_t>(row) * surfaces_ + k] += hits;
-    }
-  }
-
-  std::vector<std::int64_t> totals() const {
-    std::vector<std::int64_t> totals(surfaces_, 0);
-    for (std::size_t i = 0; i < counts_.size(); ++i) totals[i % surfaces_] += counts_[i];
-    return totals;
-  }
-
- private:
-  Camera camera_;
-  std::size_t surfaces_;
-  std::vector<std::int64_t> counts_;
+/// Pixels of the film, overscan included, counted from its upper left.
+struct Tile {
+  int left, top, width, height;
 };
 
-/// The surfaces in the order of their depth, farthest first, as far as it does not depend on the ray: skies,
-/// then everything else.
-std::vector<std::size_t> order_at_infinity(const std::vector<Surface>& surfaces) {
-  std::vector<std::size_t> order(surfaces.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_partition(order.begin(), order.end(),
-                        [&](std::size_t k) { return std::holds_alternative<LatLong>(surfaces[k]); });
-  return order;
-}
+/// What a tile counts beside its picture.
+struct TileCounts {
+  std::vector<double> hits;
+  std::int64_t rays = 0;
+  std::int64_t refined = 0;
+};
 
-Rgba shade(const SurfaceLook& look, TextureCoordinates st) {
-  Rgba colour = look.texture->lookup(st);
-  if (look.light) {
-    const auto cosine = static_cast<float>(std::max(0.0, sphere_normal_from_st(st).dot(*look.light)));
-    for (std::size_t c = 0; c < 3; ++c) colour[c] *= cosine;
-  }
-  return colour;
-}
+/// The rays of one pixel that holds an edge.
+struct EdgePixel {
+  int column, row;  // of the tile
+  std::array<Rgba, kMostSamples> seen;
+  int rays = 0;
+  std::vector<int> hits;  // per surface: how many rays meet it
+};
 
-/// `over` laid over `under`.
-void lay_under(Rgba& over, const Rgba& under) {
-  const float clear = 1.0F - over[3];
-  for (std::size_t c = 0; c < 4; ++c) over[c] += clear * under[c];
-}
-
-/// Sorts by falling distance at ray `i`, equal distances left as they are. There are few surfaces: insertion
-/// sort.
-void sort_by_depth(const TraceBatch& batch, std::size_t i, std::vector<std::size_t>& order) {
-  const auto farther = [&](std::size_t a, std::size_t b) {
-    return batch.surfaces[a].distance[i] > batch.surfaces[b].distance[i];
-  };
-  for (auto k = order.begin(); k != order.end(); ++k) {
-    std::rotate(std::upper_bound(order.begin(), k, *k, farther), k, k + 1);
-  }
-}
-
-/// What ray `i` sees; `order` holds the surfaces, farthest first.
-Rgba see(const TraceBatch& batch, std::size_t i, const std::vector<SurfaceLook>& looks,
-         const std::vector<std::size_t>& order) {
-  Rgba colour{0, 0, 0, 0};
-  for (auto k = order.rbegin(); k != order.rend() && colour[3] < 1.0F; ++k) {
-    const SurfaceBatch& surface = batch.surfaces[*k];
-    if (surface.outcome[i] != Outcome::Hit) continue;
-    lay_under(colour, shade(looks[*k], {surface.s[i], surface.t[i]}));
-  }
-  return colour;
-}
-
-/// Whether a ray of the batch's pixel number `pixel` meets any surface.
-bool meets_anything(const TraceBatch& batch, int pixel) {
-  return std::any_of(batch.surfaces.begin(), batch.surfaces.end(), [pixel](const SurfaceBatch& surface) {
-    const auto first = surface.outcome.begin() + pixel * kRaysPerPixel;
-    return std::find(first, first + kRaysPerPixel, Outcome::Hit) != first + kRaysPerPixel;
-  });
-}
-
-/// The mean of the rays of the batch's pixel number `pixel`. `order` holds the surfaces, farthest first where
-/// a ray meets two at the same distance.
-Rgba average(const TraceBatch& batch, int pixel, const std::vector<SurfaceLook>& looks,
-             const std::vector<std::size_t>& order) {
+Rgba mean_of(const Rgba* colours, int count) {
   Rgba sum{0, 0, 0, 0};
-  if (!meets_anything(batch, pixel)) return sum;
-  std::vector<std::size_t> by_depth = order;
-  for (int ray = 0; ray < kRaysPerPixel; ++ray) {
-    const auto i = static_cast<std::size_t>(pixel * kRaysPerPixel + ray);
-    if (order.size() > 1) {
-      by_depth = order;
-      sort_by_depth(batch, i, by_depth);
-    }
-    const Rgba seen = see(batch, i, looks, by_depth);
-    for (std::size_t c = 0; c < 4; ++c) sum[c] += seen[c];
+  for (int i = 0; i < count; ++i) {
+    for (std::size_t c = 0; c < 4; ++c) sum[c] += colours[i][c];
   }
-  for (float& channel : sum) channel /= kRaysPerPixel;
+  for (float& channel : sum) channel /= static_cast<float>(count);
   return sum;
 }
 
-}  // namespace
+/// The standard error of a pixel's mean, as seen: from the means of its rays four by four, each of which
+/// covers the pixel evenly.
+float seen_error(const EdgePixel& pixel) {
+  const int groups = pixel.rays / 4;
+  if (groups < 2) return 0;
+  const Rgba mean = mean_of(pixel.seen.data(), pixel.rays);
+  float worst = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    float variance = 0;
+    for (int g = 0; g < groups; ++g) {
+      const float off = seen_brightness(mean_of(&pixel.seen[static_cast<std::size_t>(4 * g)], 4)[c]) -
+                        seen_brightness(mean[c]);
+      variance += off * off;
+    }
+    worst = std::max(worst, variance / static_cast<float>(groups * (groups - 1)));
+  }
+  return std::sqrt(worst);
+}
 
-Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks) {
-  assert(looks.size() == tracer.surfaces().size());
-  const Camera& camera = tracer.camera();
+/// Traces and looks at one tile at a time; one for each thread.
+class TileTaker {
+ public:
+  TileTaker(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling)
+      : tracer_(tracer),
+        sampling_(sampling),
+        viewer_(tracer.surfaces(), looks),
+        batch_(tracer.make_batch()),
+        points_(tracer.surfaces().size()) {}
+
+  TileCounts take(const Tile& tile, Picture& picture) {
+    tile_ = tile;
+    counts_ = {std::vector<double>(points_.size(), 0.0), 0, 0};
+    CentreGrid grid(tracer_.surfaces(), tile.width, tile.height);
+    trace_centres(grid);
+    std::vector<EdgePixel> edge_pixels = look_at_centres(grid, picture);
+    look_at_edges(edge_pixels, picture);
+    return std::move(counts_);
+  }
+
+ private:
+  /// Film position of a pixel's centre.
+  FilmPosition film(int column, int row) const {
+    const int overscan = tracer_.camera().overscan;
+    return {tile_.left + column - overscan + 0.5, tile_.top + row - overscan + 0.5};
+  }
+
+  bool in_frame(FilmPosition film) const {
+    const Camera& camera = tracer_.camera();
+    return film.x > 0 && film.x < camera.width && film.y > 0 && film.y < camera.height;
+  }
+
+  void count(FilmPosition film, std::span<const SeenPoint> points) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (points[k].hit && in_frame(film)) counts_.hits[k] += 1.0;
+    }
+  }
+
+  void count(const EdgePixel& pixel) {
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      if (in_frame(film(pixel.column, pixel.row))) counts_.hits[k] += double(pixel.hits[k]) / pixel.rays;
+    }
+  }
+
+  /// Traces rays number 0 to `rays` at film positions `position(n)`, by batches, and calls `use(n, i)` for
+  /// each ray n, which is number i of its batch.
+  template <class Position, class Use>
+  void trace(std::size_t rays, Position position, Use use) {
+    for (std::size_t first = 0; first < rays; first += kBatchSize) {
+      const std::size_t count = std::min<std::size_t>(kBatchSize, rays - first);
+      for (std::size_t i = 0; i < kBatchSize; ++i) {
+        const FilmPosition film = position(first + std::min(i, count - 1));
+        batch_.x[i] = film.x;
+        batch_.y[i] = film.y;
+      }
+      tracer_.trace(batch_);
+      for (std::size_t i = 0; i < count; ++i) use(first + i, i);
+    }
+    counts_.rays += static_cast<std::int64_t>(rays);
+  }
+
+  void trace_centres(CentreGrid& grid) {
+    const auto width = static_cast<std::size_t>(grid.full_width());
+    trace(
+        grid.size(),
+        [&](std::size_t n) { return film(static_cast<int>(n % width) - 1, static_cast<int>(n / width) - 1); },
+        [&](std::size_t n, std::size_t i) {
+          for (std::size_t k = 0; k < points_.size(); ++k) {
+            grid.points(n)[k] = seen_point(batch_.surfaces[k], i);
+          }
+        });
+  }
+
+  /// Looks where one ray does; returns the other pixels.
+  std::vector<EdgePixel> look_at_centres(const CentreGrid& grid, Picture& picture) {
+    const std::vector<std::uint8_t> edges =
+        sampling_.max > 1 ? grid.edges() : std::vector<std::uint8_t>(grid.size(), 0);
+    std::vector<EdgePixel> edge_pixels;
+    for (int row = 0; row < tile_.height; ++row) {
+      for (int column = 0; column < tile_.width; ++column) {
+        const std::size_t at = grid.place(column, row);
+        if (edges[at]) {
+          edge_pixels.push_back({column, row, {}});
+          continue;
+        }
+        count(film(column, row), grid.points(at));
+        picture.at(tile_.left + column, tile_.top + row) = viewer_.see(grid.points(at), 1.0);
+      }
+    }
+    return edge_pixels;
+  }
+
+  /// Takes the rays number `from` to `until` of every pixel.
+  void add_rays(const std::vector<EdgePixel*>& pixels, int from, int until) {
+    const auto each = static_cast<std::size_t>(until - from);
+    const auto number = [&](std::size_t n) { return static_cast<std::size_t>(from) + n % each; };
+    trace(
+        pixels.size() * each,
+        [&](std::size_t n) {
+          const EdgePixel& pixel = *pixels[n / each];
+          const SampleOffset offset = sample_offsets()[number(n)];
+          const FilmPosition centre = film(pixel.column, pixel.row);
+          return FilmPosition{centre.x + offset.x, centre.y + offset.y};
+        },
+        [&](std::size_t n, std::size_t i) {
+          EdgePixel& pixel = *pixels[n / each];
+          for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
+          for (std::size_t k = 0; k < points_.size(); ++k) pixel.hits[k] += points_[k].hit ? 1 : 0;
+          pixel.seen[number(n)] = viewer_.see(points_, kSampleScale);
+        });
+    for (EdgePixel* pixel : pixels) pixel->rays = until;
+  }
+
+  void look_at_edges(std::vector<EdgePixel>& pixels, Picture& picture) {
+    std::vector<EdgePixel*> wanting;
+    for (EdgePixel& pixel : pixels) {
+      pixel.hits.assign(points_.size(), 0);
+      wanting.push_back(&pixel);
+    }
+    const int first = std::min(kFirstSamples, sampling_.max);
+    add_rays(wanting, 0, first);
+    std::erase_if(wanting, [&](const EdgePixel* p) { return seen_error(*p) <= sampling_.threshold; });
+    if (first < sampling_.max) add_rays(wanting, first, sampling_.max);
+    for (const EdgePixel& pixel : pixels) {
+      picture.at(tile_.left + pixel.column, tile_.top + pixel.row) = mean_of(pixel.seen.data(), pixel.rays);
+      count(pixel);
+    }
+    counts_.refined += static_cast<std::int64_t>(pixels.size());
+  }
+
+  const Tracer& tracer_;
+  const Sampling& sampling_;
+  Viewer viewer_;
+  TraceBatch batch_;
+  std::vector<SeenPoint> points_;  // of one ray
+  Tile tile_{};
+  TileCounts counts_;
+};
+
+Picture blank_picture(const Camera& camera) {
   Picture picture{camera.full_width(),
                   camera.full_height(),
                   -camera.overscan,
@@ -167,22 +214,36 @@ Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks)
                   camera.height,
                   {}};
   picture.pixels.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-  HitCounter counter(tracer);
-  const std::vector<std::size_t> order = order_at_infinity(tracer.surfaces());
-  trace_pixels(tracer, [&](int row, int column, int pixels, const TraceBatch& batch) {
-    counter.add(row, pixels, batch);
-    for (int pixel = 0; pixel < pixels; ++pixel) {
-      picture.at(column + pixel, row) = average(batch, pixel, looks, order);
-    }
-  });
-  return {std::move(picture), counter.totals()};
+  return picture;
 }
 
-std::vector<std::int64_t> count_hits(const Tracer& tracer) {
-  HitCounter counter(tracer);
-  trace_pixels(tracer,
-               [&](int row, int, int pixels, const TraceBatch& batch) { counter.add(row, pixels, batch); });
-  return counter.totals();
+}  // namespace
+
+float seen_brightness(float light) {
+  return light / (std::abs(light) + kMiddleGrey);
+}
+
+Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling) {
+  const Camera& camera = tracer.camera();
+  Composite result{blank_picture(camera), std::vector<double>(looks.size(), 0.0)};
+  const int columns = (camera.full_width() + kTileSize - 1) / kTileSize;
+  const int rows = (camera.full_height() + kTileSize - 1) / kTileSize;
+  std::vector<TileCounts> counts(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows), [&](const tbb::blocked_range<int>& range) {
+    TileTaker taker(tracer, looks, sampling);
+    for (int i = range.begin(); i != range.end(); ++i) {
+      const int left = i % columns * kTileSize, top = i / columns * kTileSize;
+      const Tile tile{left, top, std::min(kTileSize, camera.full_width() - left),
+                      std::min(kTileSize, camera.full_height() - top)};
+      counts[static_cast<std::size_t>(i)] = taker.take(tile, result.picture);
+    }
+  });
+  for (const TileCounts& of_tile : counts) {  // in one order, so that the sums are always the same
+    for (std::size_t k = 0; k < looks.size(); ++k) result.hits[k] += of_tile.hits[k];
+    result.rays += of_tile.rays;
+    result.refined += of_tile.refined;
+  }
+  return result;
 }
 
 }  // namespace lensplane

@@ -1,45 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From what rays meet to a picture: every layer looked up through the trace, laid over one another by depth.
+// From what rays meet to a picture: the film tile by tile, each pixel filtered by its Jacobian, and more rays
+// where that is not enough.
 //
-// The compositor asks the tracer for kRaysPerAxis x kRaysPerAxis rays in each pixel and averages them (a box
-// filter one pixel wide). Everything is linear light in the working space, premultiplied by alpha.
+// Most pixels are seen by one ray, whose footprint on every surface is filtered. Pixels that hold an edge
+// (see edge_finder.h) get sixteen rays, and as many as the shot allows when those leave too much to chance.
+// Everything is linear light in the working space, premultiplied by alpha.
 
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <vector>
 
-#include "pipeline/composite/texture.h"
-#include "src/tracer.h"
+#include "pipeline/composite/layering.h"
+#include "pipeline/composite/sample_pattern.h"
 
 namespace lensplane {
 
-inline constexpr int kRaysPerAxis = 4;
-inline constexpr int kRaysPerPixel = kRaysPerAxis * kRaysPerAxis;
-static_assert(kBatchSize % kRaysPerPixel == 0, "a batch holds whole pixels");
-
-/// What a surface of the scene looks like.
-struct SurfaceLook {
-  std::shared_ptr<const Texture> texture;
-  std::optional<Vec3>
-      light;  // spheres: unit vector towards the light in the sphere's own axes, for Lambert shading
-};
-
 struct Composite {
-  Picture picture;                 // the overscan included
-  std::vector<std::int64_t> hits;  // per surface: rays inside the frame, without overscan, that meet it
+  Picture picture;           // the overscan included
+  std::vector<double> hits;  // per surface: how many pixels of the frame, without overscan, it covers
+  std::int64_t rays = 0;     // all that were traced
+  std::int64_t refined = 0;  // pixels that got more than one ray
 };
 
-/// The picture that the tracer's camera takes; `looks` in the order of its surfaces.
-/// Nearer surfaces lie over farther ones; at infinity plates lie over skies, and later ones over earlier
-/// ones. Where a ray meets nothing the picture is transparent black. Runs in parallel; the picture does not
-/// depend on the number of threads.
-Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks);
+inline constexpr float kMiddleGrey = 0.18F;
 
-/// The rays of composite() that meet each surface, without a picture.
-std::vector<std::int64_t> count_hits(const Tracer& tracer);
+/// Light as an eye tells it apart, from 0 to 1: steps around middle grey are seen best.
+float seen_brightness(float light);
+
+/// The picture that the tracer's camera takes; `looks` in the order of its surfaces. The tracer's plan has to
+/// call for the Jacobian. Where a ray meets nothing the picture is transparent black. Runs in parallel; the
+/// picture does not depend on the number of threads.
+Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling);
 
 }  // namespace lensplane

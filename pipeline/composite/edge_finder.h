@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where one ray a pixel is not enough: silhouettes, the shadow, critical curves, seams between surfaces.
+//
+// The centres of a tile's pixels, and of one more around it, are traced with their Jacobians. A pixel needs
+// more rays when a neighbour meets other surfaces or meets them in another order, when the picture is
+// mirrored between the two, or when the neighbour is not where the pixel's Jacobian says.
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pipeline/composite/layering.h"
+
+namespace lensplane {
+
+/// How far a neighbour may be from where the Jacobian puts it, as a share of the way to it, before a pixel is
+/// taken for curved.
+inline constexpr double kMostCurved = 0.25;
+
+/// What the centres of a rectangle of pixels see, a border of one pixel included.
+class CentreGrid {
+ public:
+  /// `surfaces` as the tracer's.
+  CentreGrid(const std::vector<Surface>& surfaces, int width, int height);
+
+  int full_width() const { return width_ + 2; }
+  int full_height() const { return height_ + 2; }
+  std::size_t size() const {
+    return static_cast<std::size_t>(full_width()) * static_cast<std::size_t>(full_height());
+  }
+
+  /// Counts pixels row by row from the border's upper left; the rectangle begins at (0, 0).
+  std::size_t place(int column, int row) const {
+    return static_cast<std::size_t>(row + 1) * static_cast<std::size_t>(full_width()) +
+           static_cast<std::size_t>(column + 1);
+  }
+
+  /// What the pixel at a place meets, in the order of the surfaces.
+  std::span<SeenPoint> points(std::size_t at) { return {&points_[at * surfaces_.size()], surfaces_.size()}; }
+  std::span<const SeenPoint> points(std::size_t at) const {
+    return {&points_[at * surfaces_.size()], surfaces_.size()};
+  }
+
+  /// 1 at the places of pixels that need more rays. (The border's own are not all found.)
+  std::vector<std::uint8_t> edges() const;
+
+ private:
+  const std::vector<Surface>& surfaces_;
+  int width_, height_;
+  std::vector<SeenPoint> points_;
+};
+
+}  // namespace lensplane

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/composite/layering.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace lensplane {
+namespace {
+
+double smooth_step(double from, double to, double x) {
+  const double share = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return share * share * (3.0 - 2.0 * share);
+}
+
+void scale_colour(double by, Rgba& colour) {
+  for (std::size_t c = 0; c < 3; ++c) colour[c] *= static_cast<float>(by);
+}
+
+/// `over` laid over `under`.
+void lay_under(Rgba& over, const Rgba& under) {
+  const float clear = 1.0F - over[3];
+  for (std::size_t c = 0; c < 4; ++c) over[c] += clear * under[c];
+}
+
+/// Lambert's law; the night shows as the light fades.
+Rgba lit(const Rgba& day, const std::optional<Rgba>& night, double cosine) {
+  Rgba colour = day;
+  scale_colour(std::max(0.0, cosine), colour);
+  if (!night) return colour;
+  const double darkness = smooth_step(kTwilight, -kTwilight, cosine);
+  for (std::size_t c = 0; c < 3; ++c) colour[c] += static_cast<float>(darkness) * (*night)[c];
+  return colour;
+}
+
+/// How much light reaches a point of a ring: none inside the caster's cylinder of shadow. `width`: metres of
+/// the ring that are seen at once, over which the shadow's edge is spread.
+double light_share(const ShadowCaster& caster, const Vec3& light, const Vec3& point, double width) {
+  const Vec3 from_centre = point - caster.centre;
+  const double towards = from_centre.dot(light);
+  if (towards >= 0.0) return 1.0;  // between the caster and the light
+  const double from_axis = (from_centre - light * towards).length();
+  return smooth_step(-width, width, from_axis - caster.radius);
+}
+
+}  // namespace
+
+std::vector<std::size_t> order_at_infinity(const std::vector<Surface>& surfaces) {
+  std::vector<std::size_t> order(surfaces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t k) { return std::holds_alternative<LatLong>(surfaces[k]); });
+  return order;
+}
+
+SeenPoint seen_point(const SurfaceBatch& surface, std::size_t i) {
+  if (surface.outcome[i] != Outcome::Hit) return {};
+  const PassBatch& p = *surface.passes;
+  return {true,
+          surface.distance[i],
+          {surface.s[i], surface.t[i]},
+          {p.ds_dx[i], p.ds_dy[i], p.dt_dx[i], p.dt_dy[i]}};
+}
+
+Viewer::Viewer(const std::vector<Surface>& surfaces, const std::vector<SurfaceLook>& looks)
+    : surfaces_(surfaces), looks_(looks), order_(order_at_infinity(surfaces)), by_depth_(order_) {
+  assert(looks.size() == surfaces.size());
+}
+
+/// Equal distances stay as they are. There are few surfaces: insertion sort.
+void Viewer::sort_by_depth(std::span<const SeenPoint> points) {
+  by_depth_ = order_;
+  const auto farther = [&](std::size_t a, std::size_t b) { return points[a].distance > points[b].distance; };
+  for (auto k = by_depth_.begin(); k != by_depth_.end(); ++k) {
+    std::rotate(std::upper_bound(by_depth_.begin(), k, *k, farther), k, k + 1);
+  }
+}
+
+Rgba Viewer::shade(std::size_t surface, const SeenPoint& point, double scale) const {
+  const SurfaceLook& look = looks_[surface];
+  Footprint footprint = point.footprint;
+  footprint.scale = scale;
+  Rgba colour = look.texture->filtered(point.st, footprint);
+  if (!look.light) return colour;
+  if (std::holds_alternative<Sphere>(surfaces_[surface])) {
+    const auto night = look.night ? std::optional(look.night->filtered(point.st, footprint)) : std::nullopt;
+    return lit(colour, night, sphere_normal_from_st(point.st).dot(*look.light));
+  }
+  if (const auto* ring = std::get_if<Ring>(&surfaces_[surface]); ring && look.caster) {
+    const double width = (ring->outer - ring->inner) * scale * std::hypot(footprint.ds_dx, footprint.ds_dy);
+    scale_colour(light_share(*look.caster, *look.light, ring_point_from_st(*ring, point.st), width), colour);
+  }
+  return colour;
+}
+
+Rgba Viewer::see(std::span<const SeenPoint> points, double scale) {
+  Rgba colour{0, 0, 0, 0};
+  if (order_.size() > 1) sort_by_depth(points);
+  for (auto k = by_depth_.rbegin(); k != by_depth_.rend() && colour[3] < 1.0F; ++k) {
+    if (points[*k].hit) lay_under(colour, shade(*k, points[*k], scale));
+  }
+  return colour;
+}
+
+float Viewer::clearness(std::span<const SeenPoint> points) const {
+  float clear = 1.0F;
+  for (std::size_t k = 0; k < surfaces_.size() && clear > 0.0F; ++k) {
+    if (points[k].hit && !std::holds_alternative<LatLong>(surfaces_[k])) {
+      clear *= 1.0F - shade(k, points[k], 1.0)[3];
+    }
+  }
+  return std::max(clear, 0.0F);
+}
+
+}  // namespace lensplane

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where the rays of a pixel go when one is not enough: points spread as the pixel filter weighs the film.
+//
+// The points are those of Sobol's sequence in two dimensions, taken through the inverse of the normal
+// distribution: any power of four from its beginning covers the filter evenly in both directions at once, so
+// that an edge of any slope is drawn in as many steps as there are points. All pixels use the same points:
+// what moves over the film is sampled the same way everywhere, and nothing crawls.
+
+#pragma once
+
+#include <array>
+
+namespace lensplane {
+
+/// How many rays a pixel may get, and when it has enough.
+struct Sampling {
+  int max = 64;              // rays a pixel: 1, 4, 16 or 64
+  double threshold = 0.004;  // of the standard error, as seen; see seen_brightness()
+};
+
+inline constexpr int kMostSamples = 64;
+
+/// Rays of the first look at an edge, from whose spread the error is estimated.
+inline constexpr int kFirstSamples = 16;
+
+/// Each ray is filtered itself, this much of the pixel filter wide; points and rays together are as wide as
+/// the filter.
+inline constexpr double kSampleScale = 0.3;
+
+/// Pixels from the pixel's centre.
+struct SampleOffset {
+  double x, y;
+};
+
+/// The points; a power of four from the beginning is a pattern of its own.
+const std::array<SampleOffset, kMostSamples>& sample_offsets();
+
+}  // namespace lensplane
