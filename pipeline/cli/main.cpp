@@ -18,6 +18,7 @@
 #include "pipeline/cli/plan.h"
 #include "pipeline/cli/probe.h"
 #include "pipeline/cli/render.h"
+#include "pipeline/cli/warp.h"
 #include "pipeline/image/failure.h"
 
 namespace {
@@ -40,8 +41,11 @@ void run(const lensplane::Options& options) {
       return lensplane::run_plan(options);
     case lensplane::Command::Probe:
       return lensplane::run_probe(options);
+    case lensplane::Command::Warp:
+      return lensplane::run_warp(options);
     case lensplane::Command::Render:
     case lensplane::Command::Map:
+    case lensplane::Command::Comp:
       std::signal(SIGINT, request_interrupt);
       std::signal(SIGTERM, request_interrupt);
       std::signal(SIGHUP, request_interrupt);

@@ -24,6 +24,8 @@ Examples:
   lensplane render scenes/seed-fig5.yaml                  maps, picture and review picture of every frame
   lensplane render shot.yaml -f 1001-1010 --proxy 4       ten frames at a quarter of the resolution
   lensplane map shot.yaml --output /tmp/maps              only the STMaps, for another compositor
+  lensplane comp shot.yaml                                the picture once more from edited maps
+  lensplane warp shot.bg.map.1001.exr plate.exr out.exr   any STMap, applied to any image
   lensplane render shot.yaml --set camera.fov="2 deg" --set lenses.near.mass="10 Msun"
 
 Exit codes: 0 done; 1 the shot or the command line is wrong; 2 an input is missing or broken;
@@ -46,14 +48,38 @@ void add_common(CLI::App& command, Options& options) {
   command.add_flag("--quiet", options.quiet, "say nothing but errors");
 }
 
-void add_rendering(CLI::App& command, Options& options) {
+void add_threads(CLI::App& command, Options& options) {
   command.add_option("--threads", options.threads, "threads to use (else one for each core)")
       ->check(CLI::Range(1, kMaxThreads));
+}
+
+void add_rendering(CLI::App& command, Options& options) {
+  add_threads(command, options);
   command.add_option("--output", options.output, "the folder for everything that is written")
       ->check(refuse_empty);
   command.add_option("--stats", options.stats, "write seconds and bytes of each phase to this JSON file")
       ->check(refuse_empty);
   command.add_flag("--redo", options.redo, "make again what is already done and right");
+}
+
+void add_warp(CLI::App& command, WarpOptions& warp) {
+  command.add_option("MAP", warp.map, "an STMap: R = s, G = t, B (or A) = coverage")->required();
+  command.add_option("IMAGE", warp.image, "the image that is seen through it")->required();
+  command.add_option("OUT", warp.out, "the file to write: .exr, .png or .tif")->required();
+  command.add_option("--data", warp.data, "the map's data file, with its jacobian (else the one beside it)")
+      ->check(refuse_empty);
+  command
+      .add_option("--origin", warp.origin,
+                  "where t = 0 lies: bottom or top (else as the map says, or bottom)")
+      ->check(CLI::IsMember({"bottom", "top"}));
+  command.add_option("--edge", warp.edge, "what lies outside the image (else black)")
+      ->check(CLI::IsMember({"black", "clamp", "mirror", "repeat", "globe"}));
+  command
+      .add_option("--filter", warp.filter, "footprint: what a pixel covers (the default); none: one sample")
+      ->check(CLI::IsMember({"footprint", "none"}));
+  command
+      .add_option("--space", warp.space, "the image's colour space (else as its header or the config says)")
+      ->check(refuse_empty);
 }
 
 }  // namespace
@@ -71,19 +97,24 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App* plan = app.add_subcommand("plan", "what will be simulated, and why");
   CLI::App* render = app.add_subcommand("render", "everything: maps, composite, review picture");
   CLI::App* map = app.add_subcommand("map", "only the maps and their data files");
+  CLI::App* comp = app.add_subcommand("comp", "the picture from the maps on disk, edited ones, for example");
+  CLI::App* warp = app.add_subcommand("warp", "apply any STMap to any image");
   CLI::App* probe = app.add_subcommand("probe", "one film position in full");
-  const std::pair<CLI::App*, Command> commands[] = {{check, Command::Check},
-                                                    {plan, Command::Plan},
-                                                    {render, Command::Render},
-                                                    {map, Command::Map},
-                                                    {probe, Command::Probe}};
+  const std::pair<CLI::App*, Command> commands[] = {{check, Command::Check},   {plan, Command::Plan},
+                                                    {render, Command::Render}, {map, Command::Map},
+                                                    {comp, Command::Comp},     {probe, Command::Probe}};
   for (const auto& [app_of, command] : commands) {
     add_common(*app_of, options);
     app_of->footer(kExamples);
     app_of->callback([&options, command = command] { options.command = command; });
   }
-  for (CLI::App* command : {render, map}) add_rendering(*command, options);
+  for (CLI::App* command : {render, map, comp}) add_rendering(*command, options);
   for (CLI::App* command : {plan, probe}) command->add_flag("--json", options.json, "for programs: as JSON");
+  warp->callback([&options] { options.command = Command::Warp; });
+  warp->footer(kExamples);
+  add_warp(*warp, options.warp);
+  add_threads(*warp, options);
+  warp->add_flag("--quiet", options.quiet, "say nothing but errors");
   probe->add_option("-x", options.x, "pixels from the left of the frame, fractions allowed")->required();
   probe->add_option("-y", options.y, "pixels from the top of the frame, fractions allowed")->required();
 

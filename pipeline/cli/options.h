@@ -12,7 +12,19 @@
 
 namespace lensplane {
 
-enum class Command { Check, Plan, Render, Map, Probe };
+enum class Command { Check, Plan, Render, Map, Comp, Warp, Probe };
+
+/// Of lensplane warp.
+struct WarpOptions {
+  std::string map;
+  std::string image;
+  std::string out;
+  std::string data;                  // a data file; empty: the one beside the map, if there is one
+  std::string origin;                // where t = 0 lies: "bottom", "top"; empty: as the map says
+  std::string edge = "black";        // what lies outside the image
+  std::string filter = "footprint";  // "none": a single sample for each pixel
+  std::string space;                 // the image's colour space; empty: as its header or the config says
+};
 
 struct Options {
   Command command = Command::Check;
@@ -27,6 +39,7 @@ struct Options {
   bool redo = false;
   bool json = false;
   std::string x, y;  // of a probe, as written
+  WarpOptions warp;
 };
 
 /// What parsing a command line leads to: options, or text to print and leave with Done.

@@ -2,16 +2,13 @@
 
 #include "pipeline/cli/render.h"
 
-#include <OpenEXR/ImfThreading.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
 
+#include "pipeline/cli/threads.h"
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/failure.h"
 #include "pipeline/sequence/overwriting.h"
@@ -22,11 +19,6 @@
 
 namespace lensplane {
 namespace {
-
-int threads_of(const Options& options) {
-  if (options.threads > 0) return options.threads;
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
 
 void write_statistics(const Options& options, const Shot& shot, int threads, double seconds,
                       const std::vector<FrameReport>& reports) {
@@ -46,14 +38,13 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
                   shot.file + ": output.maps: none: there is nothing to do for lensplane map");
   }
   refuse_overwriting(shot, frames, options.stats);
-  const int threads = threads_of(options);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  OIIO::attribute("threads", threads);
-  Imf::setGlobalThreadCount(threads > 1 ? threads : 0);
+  const Threads threads(options.threads);
 
   const ColourConfig colours = load_colours(shot, std::getenv("OCIO"));
-  const FrameTasks tasks{.maps = true, .picture = options.command == Command::Render, .redo = options.redo};
+  const FrameTasks tasks{.maps = options.command != Command::Comp,
+                         .picture = options.command != Command::Map,
+                         .redo = options.redo,
+                         .from_maps = options.command == Command::Comp};
   double seconds = 0;
   std::vector<FrameReport> reports;
   {
@@ -64,7 +55,7 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
           {[&progress](const FrameReport& report) { progress.frame_done(report); }, interrupted});
     });
   }
-  write_statistics(options, shot, threads, seconds, reports);
+  write_statistics(options, shot, threads.count(), seconds, reports);
   if (reports.size() < frames.size()) {
     throw Failure(
         ExitCode::TryAgain,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// lensplane render and lensplane map: frames of a shot, made.
+// lensplane render, map and comp: frames of a shot, made.
 
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace lensplane {
 
-/// Makes the frames that `options` ask for: everything, or for Command::Map the maps alone. Begins no frame
+/// Makes the frames that `options` ask for: everything, for Command::Map the maps alone, for Command::Comp
+/// the pictures from the maps that are there. Begins no frame
 /// after `interrupted()` holds. Throws Failure.
 void run_render(const Options& options, const std::function<bool()>& interrupted);
 

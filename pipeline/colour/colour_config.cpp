@@ -13,44 +13,13 @@
 #include <sstream>
 
 #include "pipeline/colour/builtin_config.h"
+#include "pipeline/colour/interop_spaces.h"
 #include "pipeline/image/failure.h"
 
 namespace lensplane {
 namespace {
 
 namespace OCIO = OCIO_NAMESPACE;
-
-struct KnownSpace {
-  const char* interop_id;
-  std::array<const char*, 2> names;  // what configs call it, besides the interop ID
-  Chromaticities chromaticities;
-};
-
-// Linear spaces of the ACES and sRGB families; primaries from SMPTE ST 2065-1, ACES TB-2014-004, and ITU-R
-// BT.709.
-constexpr std::array<KnownSpace, 3> kKnownSpaces = {{
-    {"lin_ap1_scene",
-     {"ACEScg", "lin_ap1"},
-     {{{.713F, .293F}, {.165F, .830F}, {.128F, .044F}, {.32168F, .33767F}}}},
-    {"lin_ap0_scene",
-     {"ACES2065-1", "lin_ap0"},
-     {{{.7347F, .2653F}, {0.F, 1.F}, {.0001F, -.077F}, {.32168F, .33767F}}}},
-    {"lin_rec709_scene",
-     {"lin_rec709", "lin_srgb"},
-     {{{.64F, .33F}, {.30F, .60F}, {.15F, .06F}, {.3127F, .3290F}}}},
-}};
-
-const KnownSpace* find_known(const OCIO::ConstConfigRcPtr& config, const std::string& space) {
-  const auto wanted = config->getColorSpace(space.c_str());
-  if (!wanted) return nullptr;
-  for (const KnownSpace& known : kKnownSpaces) {
-    for (const char* name : {known.interop_id, known.names[0], known.names[1]}) {
-      const auto candidate = config->getColorSpace(name);
-      if (candidate && std::string(candidate->getName()) == wanted->getName()) return &known;
-    }
-  }
-  return nullptr;
-}
 
 OCIO::ConstConfigRcPtr load_file(const std::string& path, const std::string& named_by) {
   const auto refuse = [&](const std::string& reason) {
@@ -69,13 +38,33 @@ OCIO::ConstConfigRcPtr load_file(const std::string& path, const std::string& nam
   return nullptr;
 }
 
-OCIO::ConstProcessorRcPtr view_processor(const OCIO::ConstConfigRcPtr& config, const std::string& working,
-                                         const std::string& display, const std::string& view) {
-  const auto transform = OCIO::DisplayViewTransform::Create();
-  transform->setSrc(working.c_str());
-  transform->setDisplay(display.c_str());
-  transform->setView(view.c_str());
-  return config->getProcessor(transform);
+/// From `working` to the grade's space, graded, and back. The file is read when a processor is made of it.
+OCIO::GroupTransformRcPtr grade_transform(const Grade& grade, const std::string& working) {
+  const auto convert = [](const std::string& from, const std::string& to) {
+    const auto transform = OCIO::ColorSpaceTransform::Create();
+    transform->setSrc(from.c_str());
+    transform->setDst(to.c_str());
+    return transform;
+  };
+  const auto cdl = OCIO::FileTransform::Create();
+  cdl->setSrc(std::filesystem::absolute(grade.cdl).c_str());
+  cdl->setCCCId(grade.id.c_str());
+  const auto steps = OCIO::GroupTransform::Create();
+  steps->appendTransform(convert(working, grade.space));
+  steps->appendTransform(cdl);
+  steps->appendTransform(convert(grade.space, working));
+  return steps;
+}
+
+OCIO::ConstProcessorRcPtr view_processor(const OCIO::ConstConfigRcPtr& config, const ViewSettings& view) {
+  const auto show = OCIO::DisplayViewTransform::Create();
+  show->setSrc(view.working.c_str());
+  show->setDisplay(view.display.c_str());
+  show->setView(view.view.c_str());
+  if (!view.grade) return config->getProcessor(show);
+  const auto steps = grade_transform(*view.grade, view.working);
+  steps->appendTransform(show);
+  return config->getProcessor(steps);
 }
 
 OCIO::BitDepth bit_depth(SampleType type) {
@@ -160,8 +149,39 @@ std::vector<std::string> ColourConfig::views(const std::string& display) const {
                 [&](int i) { return config_->getView(display.c_str(), i); });
 }
 
-std::string ColourConfig::space_of_file(const std::string& path) const {
-  return config_->getColorSpaceFromFilepath(path.c_str());
+std::string ColourConfig::space_of_file(const std::string& path, const std::string& interop_id) const {
+  if (interop_id.empty() || interop_id == "unknown") return config_->getColorSpaceFromFilepath(path.c_str());
+  const auto space = space_of_interop_id(*config_, interop_id);
+  if (!space) {
+    throw Failure(
+        ExitCode::BadInput,
+        fmt::format("{}: its colorInteropID \"{}\" is no colour space of the OCIO config; say which "
+                    "one it is by space",
+                    path, interop_id));
+  }
+  return *space;
+}
+
+std::string ColourConfig::display_interop_id(const std::string& display, const std::string& view) const {
+  const std::string named = config_->getDisplayViewColorSpaceName(display.c_str(), view.c_str());
+  const std::string space = named == "<USE_DISPLAY_NAME>" ? display : named;
+  if (const InteropSpace* known = find_interop_space(*config_, space)) return known->id;
+  // Configs before displays had spaces of their own say it by the display's name.
+  const auto found = config_->getColorSpace(space.c_str());
+  const bool shows_colours = found && !found->isData();
+  return shows_colours && display.starts_with("sRGB") ? "srgb_rec709_display" : "";
+}
+
+void ColourConfig::check_grade(const Grade& grade) const {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(grade.cdl, error))
+    throw Failure(ExitCode::BadInput, grade.cdl + ": no such file");
+  try {
+    config_->getProcessor(grade_transform(grade, grade.space));
+  } catch (const OCIO::Exception& exception) {
+    throw Failure(ExitCode::BadInput,
+                  fmt::format("{}: cannot be read as a CDL: {}", grade.cdl, exception.what()));
+  }
 }
 
 bool ColourConfig::is_scene_linear(const std::string& space) const {
@@ -177,19 +197,18 @@ std::string ColourConfig::conversion_id(const std::string& space, const std::str
   return config_->getProcessor(space.c_str(), working.c_str())->getCacheID();
 }
 
-std::string ColourConfig::view_id(const std::string& working, const std::string& display,
-                                  const std::string& view) const {
-  return view_processor(config_, working, display, view)->getCacheID();
+std::string ColourConfig::view_id(const ViewSettings& view) const {
+  return view_processor(config_, view)->getCacheID();
 }
 
 std::string ColourConfig::interop_id(const std::string& space) const {
-  const KnownSpace* known = find_known(config_, space);
-  return known ? known->interop_id : "";
+  const InteropSpace* known = find_interop_space(*config_, space);
+  return known ? known->id : "";
 }
 
 std::optional<Chromaticities> ColourConfig::chromaticities(const std::string& space) const {
-  const KnownSpace* known = find_known(config_, space);
-  if (!known) return std::nullopt;
+  const InteropSpace* known = find_interop_space(*config_, space);
+  if (!known || known->curve != InteropSpace::Curve::Linear) return std::nullopt;
   return known->chromaticities;
 }
 
@@ -226,9 +245,22 @@ Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding&
   return picture;
 }
 
-Picture ColourConfig::to_display(const Picture& picture, const std::string& working,
-                                 const std::string& display, const std::string& view) const {
-  const auto processor = view_processor(config_, working, display, view)->getDefaultCPUProcessor();
+Picture ColourConfig::to_space(const Picture& picture, const std::string& working,
+                               const std::string& space) const {
+  const auto processor = config_->getProcessor(working.c_str(), space.c_str())->getDefaultCPUProcessor();
+  Picture encoded = picture;
+  apply_rows(processor, picture.pixels.data(), SampleType::Float, picture.width, picture.height,
+             encoded.pixels.data());
+  return encoded;
+}
+
+ViewSettings ColourConfig::default_view(const std::string& working) const {
+  const std::string display = config_->getDefaultDisplay();
+  return {working, display, config_->getDefaultView(display.c_str())};
+}
+
+Picture ColourConfig::to_display(const Picture& picture, const ViewSettings& view) const {
+  const auto processor = view_processor(config_, view)->getDefaultCPUProcessor();
   Picture shown = picture;
   apply_rows(processor, picture.pixels.data(), SampleType::Float, picture.width, picture.height,
              shown.pixels.data());

@@ -24,6 +24,21 @@ struct ImageEncoding {
   bool ignore_alpha = false;
 };
 
+/// A grade by the numbers of the ASC: slope, offset, power, saturation.
+struct Grade {
+  std::string cdl;    // the path of a .cc, .ccc or .cdl
+  std::string id;     // of the correction in a file of several; empty: the first
+  std::string space;  // the colour space that its numbers are meant for
+};
+
+/// How a picture is shown.
+struct ViewSettings {
+  std::string working;  // the picture's space
+  std::string display;
+  std::string view;
+  std::optional<Grade> grade = std::nullopt;  // before the view
+};
+
 /// The largest value of a channel: far beyond any light, and safe to add up and to interpolate.
 inline constexpr float kBrightest = 1e18F;
 
@@ -38,11 +53,16 @@ class ColourConfig {
   std::vector<std::string> displays() const;
   std::vector<std::string> views(const std::string& display) const;
 
-  /// The space that the config's file rules give to a file.
-  std::string space_of_file(const std::string& path) const;
+  /// The space of an image file: that of the colorInteropID in its header, `interop_id`, else (empty, or
+  /// "unknown") the one that the config's file rules give to its path. Throws Failure (BadInput) when the
+  /// config has no space of that ID.
+  std::string space_of_file(const std::string& path, const std::string& interop_id = {}) const;
 
-  /// Whether a display is sRGB, by its name.
-  bool is_srgb(const std::string& display) const { return display.starts_with("sRGB"); }
+  /// The colorInteropID of what to_display makes, empty when there is none that we know.
+  std::string display_interop_id(const std::string& display, const std::string& view) const;
+
+  /// Throws Failure (BadInput) that names the grade's file when it is missing, broken, or has no such id.
+  void check_grade(const Grade& grade) const;
 
   /// Whether light adds up in a space: linear and relative to the scene. Taken on trust from configs that do
   /// not say.
@@ -50,7 +70,7 @@ class ColourConfig {
 
   /// Identify what the two conversions below compute, by contents, for fingerprints.
   std::string conversion_id(const std::string& space, const std::string& working) const;
-  std::string view_id(const std::string& working, const std::string& display, const std::string& view) const;
+  std::string view_id(const ViewSettings& view) const;
 
   /// The colorInteropID of a space, empty when it has none that we know.
   std::string interop_id(const std::string& space) const;
@@ -63,9 +83,15 @@ class ColourConfig {
   Picture to_working(const EncodedImage& image, const ImageEncoding& encoding,
                      const std::string& working) const;
 
-  /// A picture in the working space as a display shows it, by a view. Alpha is taken as shown over black.
-  Picture to_display(const Picture& picture, const std::string& working, const std::string& display,
-                     const std::string& view) const;
+  /// A picture in the working space with its colours in `space`. Alpha is taken as shown over black.
+  Picture to_space(const Picture& picture, const std::string& working, const std::string& space) const;
+
+  /// The config's first display and its first view.
+  ViewSettings default_view(const std::string& working) const;
+
+  /// A picture in the working space as a display shows it. Alpha is taken as shown over black. The values are
+  /// not clamped.
+  Picture to_display(const Picture& picture, const ViewSettings& view) const;
 
  private:
   explicit ColourConfig(OCIO_NAMESPACE::ConstConfigRcPtr config) : config_(std::move(config)) {}

@@ -61,7 +61,24 @@ Imf::Chromaticities imf_chromaticities(const Chromaticities& c) {
   return {xy(0), xy(1), xy(2), xy(3)};
 }
 
+void add_colours(const std::string& interop, const std::optional<Chromaticities>& chromaticities,
+                 Imf::Header& imf) {
+  if (!interop.empty()) imf.insert("colorInteropID", Imf::StringAttribute(interop));
+  if (chromaticities) Imf::addChromaticities(imf, imf_chromaticities(*chromaticities));
+}
+
 }  // namespace
+
+Imf::Header imf_header_of_picture(const Picture& picture, const std::string& colour_interop,
+                                  const std::optional<Chromaticities>& chromaticities) {
+  const Imath::V2i corner(picture.x, picture.y);
+  Imf::Header imf(Imath::Box2i({0, 0}, {picture.display_width - 1, picture.display_height - 1}),
+                  Imath::Box2i(corner, corner + Imath::V2i(picture.width - 1, picture.height - 1)));
+  imf.compression() = Imf::ZIP_COMPRESSION;
+  imf.insert("lensplane:version", Imf::StringAttribute(kVersion));
+  add_colours(colour_interop, chromaticities, imf);
+  return imf;
+}
 
 Imf::Header imf_header(const ExrWindow& window, const ExrFormat& format, const ExrHeader& header) {
   const Imath::Box2i display({0, 0}, {window.width - 1, window.height - 1});
@@ -79,8 +96,7 @@ Imf::Header imf_header(const ExrWindow& window, const ExrFormat& format, const E
   text("lensplane:parameters", header.parameters);
   text("lensplane:st_origin", "bottom left");
   if (!header.amplification.empty()) text("lensplane:amplification", header.amplification);
-  if (!header.colour_interop.empty()) text("colorInteropID", header.colour_interop);
-  if (header.chromaticities) Imf::addChromaticities(imf, imf_chromaticities(*header.chromaticities));
+  add_colours(header.colour_interop, header.chromaticities, imf);
   imf.insert("framesPerSecond", Imf::RationalAttribute(Imf::Rational(
                                     header.fps.numerator, static_cast<unsigned>(header.fps.denominator))));
   imf.insert("worldToCamera",

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "pipeline/image/exr_format.h"
+#include "pipeline/image/picture.h"
 #include "src/basis.h"
 
 namespace lensplane {
@@ -38,5 +39,9 @@ struct ExrWindow {
 
 /// The same as OpenEXR has it, without channels.
 Imf::Header imf_header(const ExrWindow& window, const ExrFormat& format, const ExrHeader& header);
+
+/// The header of a picture of no shot: its windows, lensplane's version, and what its colours are.
+Imf::Header imf_header_of_picture(const Picture& picture, const std::string& colour_interop,
+                                  const std::optional<Chromaticities>& chromaticities);
 
 }  // namespace lensplane

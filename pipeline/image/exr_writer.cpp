@@ -73,12 +73,15 @@ struct ExrFile::State {
 };
 
 ExrFile::ExrFile(const std::filesystem::path& path, const ExrWindow& window,
-                 const std::vector<std::string>& channels, const ExrFormat& format, const ExrHeader& header) {
-  const Imf::PixelType type = format.type == PixelType::Half ? Imf::HALF : Imf::FLOAT;
-  Imf::Header imf = imf_header(window, format, header);
-  for (const std::string& channel : channels) imf.channels().insert(channel, Imf::Channel(type));
-  state_.reset(new State{path, type, AtomicStream(path), {}, -window.overscan});
-  state_->guarded([&] { state_->file.emplace(state_->stream, imf); });
+                 const std::vector<std::string>& channels, const ExrFormat& format, const ExrHeader& header)
+    : ExrFile(path, imf_header(window, format, header), channels, format.type) {}
+
+ExrFile::ExrFile(const std::filesystem::path& path, Imf::Header header,
+                 const std::vector<std::string>& channels, PixelType pixel_type) {
+  const Imf::PixelType type = pixel_type == PixelType::Half ? Imf::HALF : Imf::FLOAT;
+  for (const std::string& channel : channels) header.channels().insert(channel, Imf::Channel(type));
+  state_.reset(new State{path, type, AtomicStream(path), {}, header.dataWindow().min.y});
+  state_->guarded([&] { state_->file.emplace(state_->stream, header); });
 }
 
 ExrFile::~ExrFile() = default;
@@ -108,14 +111,15 @@ std::size_t ExrFile::commit() {
   return state_->stream.commit();
 }
 
-std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window,
-                      const std::vector<ExrChannel>& channels, const ExrFormat& format,
-                      const ExrHeader& header) {
+namespace {
+
+std::size_t write_whole(const std::filesystem::path& path, const Imf::Header& header,
+                        const std::vector<ExrChannel>& channels, PixelType type) {
   constexpr int kRowsAtOnce = 256;  // as much as is converted to half at a time
   std::vector<std::string> names;
   for (const ExrChannel& channel : channels) names.push_back(channel.name);
-  ExrFile file(path, window, names, format, header);
-  const int width = window.width + 2 * window.overscan, height = window.height + 2 * window.overscan;
+  ExrFile file(path, header, names, type);
+  const int width = header.dataWindow().size().x + 1, height = header.dataWindow().size().y + 1;
   std::vector<ExrChannel> rest = channels;
   for (int row = 0; row < height; row += kRowsAtOnce) {
     const int rows = std::min(kRowsAtOnce, height - row);
@@ -124,6 +128,23 @@ std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window
       channel.samples += channel.stride * static_cast<std::size_t>(rows) * static_cast<std::size_t>(width);
   }
   return file.commit();
+}
+
+}  // namespace
+
+std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window,
+                      const std::vector<ExrChannel>& channels, const ExrFormat& format,
+                      const ExrHeader& header) {
+  return write_whole(path, imf_header(window, format, header), channels, format.type);
+}
+
+std::size_t write_exr_picture(const std::filesystem::path& path, const Picture& picture, PixelType type,
+                              const std::string& colour_interop,
+                              const std::optional<Chromaticities>& chromaticities) {
+  std::vector<ExrChannel> channels;
+  for (const char* name : {"R", "G", "B", "A"})
+    channels.push_back({name, picture.pixels.front().data() + channels.size(), 4});
+  return write_whole(path, imf_header_of_picture(picture, colour_interop, chromaticities), channels, type);
 }
 
 std::optional<std::string> read_exr_attribute(const std::filesystem::path& path,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/image/exr_header.h"
+#include "pipeline/image/picture.h"
 
 namespace lensplane {
 
@@ -30,6 +31,9 @@ class ExrFile {
   /// `channels` are their names.
   ExrFile(const std::filesystem::path& path, const ExrWindow& window,
           const std::vector<std::string>& channels, const ExrFormat& format, const ExrHeader& header);
+  /// With windows and attributes as they stand in `header`; its channels are added.
+  ExrFile(const std::filesystem::path& path, Imf::Header header, const std::vector<std::string>& channels,
+          PixelType type);
   ~ExrFile();
 
   /// The next `rows` rows of all channels; `samples` begin at the first of them.
@@ -46,6 +50,11 @@ class ExrFile {
 std::size_t write_exr(const std::filesystem::path& path, const ExrWindow& window,
                       const std::vector<ExrChannel>& channels, const ExrFormat& format,
                       const ExrHeader& header);
+
+/// Writes R, G, B, A of a picture of no shot, whose colour space has this colorInteropID and primaries.
+std::size_t write_exr_picture(const std::filesystem::path& path, const Picture& picture, PixelType type,
+                              const std::string& colour_interop,
+                              const std::optional<Chromaticities>& chromaticities);
 
 /// Reads back the attribute `lensplane:NAME` of a file that is whole, nothing when there is no such file, no
 /// such attribute, or the file breaks off.

@@ -126,4 +126,13 @@ EncodedImage read_image(const std::filesystem::path& path) {
   return image;
 }
 
+std::string read_interop_id(const std::filesystem::path& path) {
+  const auto input = OIIO::ImageInput::open(path.string());
+  if (!input) {
+    OIIO::geterror();  // an unread error would be printed later
+    return {};
+  }
+  return std::string(input->spec().get_string_attribute("colorInteropID"));
+}
+
 }  // namespace lensplane

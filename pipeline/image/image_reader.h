@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace lensplane {
@@ -38,5 +39,9 @@ struct EncodedImage {
 /// Reads the first part of an image. EXR and whatever else OpenImageIO reads. Throws Failure (BadInput) with
 /// the path and the reason.
 EncodedImage read_image(const std::filesystem::path& path);
+
+/// The colorInteropID that an image says about itself, read from its header alone; empty when it says none,
+/// or cannot be read.
+std::string read_interop_id(const std::filesystem::path& path);
 
 }  // namespace lensplane

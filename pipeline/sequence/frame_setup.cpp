@@ -2,9 +2,12 @@
 
 #include "pipeline/sequence/frame_setup.h"
 
-#include "pipeline/image/png_writer.h"
+#include "pipeline/image/display_writer.h"
 #include "pipeline/sequence/fingerprint.h"
+#include "pipeline/sequence/map_layers.h"
 #include "pipeline/sequence/output_paths.h"
+#include "pipeline/sequence/shot_colours.h"
+#include "pipeline/sequence/shot_glow.h"
 #include "pipeline/shot/shot_scene.h"
 #include "src/plan_words.h"
 
@@ -40,14 +43,14 @@ std::string fingerprint_of_picture(const Shot& shot, TextureStore& textures, int
     print.add(textures.digest(k, frame));
     if (const auto light = light_at(shot.layers[k], frame)) print.add("light").add(*light);
   }
+  if (const auto glow = glow_at(shot, frame)) print.add("glow").add(glow->strength).add(glow->radius_px);
   return print.digest();
 }
 
 std::string fingerprint_of_review(const Shot& shot, const ColourConfig& colours, const FrameSetup& setup) {
-  const ColourSettings& colour = shot.colour;
   return Fingerprint()
       .add(setup.picture_header.parameters)
-      .add(colours.view_id(colour.working.text, colour.display.text, colour.view.text))
+      .add(colours.view_id(view_of(shot)))
       .add(static_cast<double>(shot.output.locator))
       .digest();
 }
@@ -107,10 +110,15 @@ FrameSetup set_up_frame(const Shot& shot, const ColourConfig& colours, TextureSt
   setup.picture_header = common_header(shot, colours, frame, setup.scene, setup.plan);
   setup.picture_header.colour_interop = colours.interop_id(shot.colour.working.text);
   setup.picture_header.parameters = fingerprint_of_picture(shot, textures, frame, setup);
+  if (tasks.from_maps) {
+    setup.picture_header.plan = "from maps";
+    setup.picture_header.parameters =
+        Fingerprint().add(setup.picture_header.parameters).add(digest_of_maps(shot, frame)).digest();
+  }
   if (shot.output.review) setup.review_parameters = fingerprint_of_review(shot, colours, setup);
   const bool picture_done = exr_is_done(picture_path(shot, frame), setup.picture_header);
   const bool review_done =
-      !shot.output.review || read_png_parameters(review_path(shot, frame)) == setup.review_parameters;
+      !shot.output.review || read_display_parameters(review_path(shot, frame)) == setup.review_parameters;
   setup.picture = tasks.redo || !picture_done || !review_done;
   return setup;
 }

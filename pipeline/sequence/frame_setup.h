@@ -20,7 +20,8 @@ namespace lensplane {
 struct FrameTasks {
   bool maps = true;
   bool picture = true;
-  bool redo = false;  // also what is done and right
+  bool redo = false;       // also what is done and right
+  bool from_maps = false;  // the picture is made from the maps on disk, and no light is traced
 };
 
 /// Everything that is known about a frame before any light is traced.

@@ -19,7 +19,8 @@ std::filesystem::path data_path(const Shot& shot, const std::string& layer, int 
 }
 
 std::filesystem::path review_path(const Shot& shot, int frame) {
-  return shot.output.directory / fmt::format("{}.review.{:04}.png", shot.name, frame);
+  const char* ending = shot.output.review == ReviewFormat::Tiff16 ? "tif" : "png";
+  return shot.output.directory / fmt::format("{}.review.{:04}.{}", shot.name, frame, ending);
 }
 
 }  // namespace lensplane

@@ -7,11 +7,15 @@
 #include <charconv>
 #include <sstream>
 
+#include "pipeline/colour/icc_profile.h"
 #include "pipeline/composite/compositor.h"
 #include "pipeline/composite/locator.h"
-#include "pipeline/image/png_writer.h"
+#include "pipeline/image/display_writer.h"
 #include "pipeline/sequence/make_maps.h"
+#include "pipeline/sequence/map_layers.h"
 #include "pipeline/sequence/output_paths.h"
+#include "pipeline/sequence/shot_colours.h"
+#include "pipeline/sequence/shot_glow.h"
 #include "pipeline/shot/shot_scene.h"
 
 namespace lensplane {
@@ -123,27 +127,42 @@ void make_review(const Shot& shot, const ColourConfig& colours, int frame, const
         timed(report[Phase::Composite].seconds, [&] { return composite(tracer, locator.looks); });
     shown = beside(shown, display_window(view.picture));
   }
-  const Picture display = timed(report[Phase::View].seconds, [&] {
-    return colours.to_display(shown, shot.colour.working.text, shot.colour.display.text,
-                              shot.colour.view.text);
-  });
+  const Picture display =
+      timed(report[Phase::View].seconds, [&] { return colours.to_display(shown, view_of(shot)); });
   report[Phase::View].bytes += display.pixels.size() * sizeof(Rgba);
   report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
-    return write_png(review_path(shot, frame), display,
-                     {setup.review_parameters, colours.is_srgb(shot.colour.display.text)});
+    const std::string interop = colours.display_interop_id(shot.colour.display.text, shot.colour.view.text);
+    return write_display(review_path(shot, frame), display, *shot.output.review == ReviewFormat::Png ? 8 : 16,
+                         {setup.review_parameters, interop, icc_profile(interop)});
   });
 }
 
+Picture composite_of_maps(const Shot& shot, int frame, const FrameSetup& setup,
+                          const std::vector<SurfaceLook>& looks, FrameReport& report) {
+  const auto layers =
+      timed(report[Phase::Load].seconds, [&] { return load_map_layers(shot, setup.scene, looks, frame); });
+  return timed(report[Phase::Composite].seconds, [&] { return composite_from_maps(layers); });
+}
+
 void make_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
-                  const FrameSetup& setup, FrameReport& report) {
+                  const FrameTasks& tasks, const FrameSetup& setup, FrameReport& report) {
   const auto looks = load_looks(shot, setup.scene, textures, frame, report);
-  const Tracer tracer(setup.scene, setup.plan);
-  const Composite result = timed(report[Phase::Composite].seconds, [&] { return composite(tracer, looks); });
-  report.rays += static_cast<std::int64_t>(result.picture.pixels.size()) * kRaysPerPixel;
+  Composite result;
+  if (tasks.from_maps) {
+    result.picture = composite_of_maps(shot, frame, setup, looks, report);
+  } else {
+    const Tracer tracer(setup.scene, setup.plan);
+    result = timed(report[Phase::Composite].seconds, [&] { return composite(tracer, looks); });
+    report.rays += static_cast<std::int64_t>(result.picture.pixels.size()) * kRaysPerPixel;
+    report.amplifications = timed(report[Phase::Trace].seconds, [&] {
+      return amplifications_of(shot, setup.scene, setup.plan.method, result.hits);
+    });
+  }
   report[Phase::Composite].bytes += result.picture.pixels.size() * sizeof(Rgba);
-  report.amplifications = timed(report[Phase::Trace].seconds, [&] {
-    return amplifications_of(shot, setup.scene, setup.plan.method, result.hits);
-  });
+  if (const auto glow = glow_at(shot, frame)) {
+    result.picture =
+        timed(report[Phase::Composite].seconds, [&] { return with_glow(result.picture, *glow); });
+  }
   write_picture(shot, frame, setup, result.picture, report);
   if (shot.output.review) make_review(shot, colours, frame, setup, result.picture, looks, report);
 }
@@ -159,7 +178,7 @@ FrameReport render_frame(const Shot& shot, const ColourConfig& colours, TextureS
     const bool maps_done = setup.maps.empty() && setup.data.empty();
     report.already_done = maps_done && !setup.picture;
     if (!maps_done) make_maps(shot, frame, setup, report);
-    if (setup.picture) make_picture(shot, colours, textures, frame, setup, report);
+    if (setup.picture) make_picture(shot, colours, textures, frame, tasks, setup, report);
     if (tasks.picture && !setup.picture) {
       const auto kept = read_exr_attribute(picture_path(shot, frame), "amplification");
       report.amplifications = amplifications_from_text(kept.value_or(""));

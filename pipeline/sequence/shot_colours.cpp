@@ -22,21 +22,36 @@ void require_space(const LocatedText& name, const ColourConfig& colours) {
   if (!colours.has_space(name.text)) require_among(name, colours.spaces(), "colour space");
 }
 
+/// Runs `work`; when an input fails there, the line says where the shot names it.
+auto located_at(const LocatedText& named, auto work) {
+  try {
+    return work();
+  } catch (const Failure& failure) {
+    throw Failure(failure.code(), located(named.location, named.key, failure.what()));
+  }
+}
+
 }  // namespace
 
 ColourConfig load_colours(const Shot& shot, const char* environment) {
   const auto load = [&] {
     if (!shot.colour.config) return ColourConfig::load(std::nullopt, environment);
-    try {
-      return ColourConfig::load(shot.colour.config->text, environment);
-    } catch (const Failure& failure) {
-      throw Failure(failure.code(),
-                    located(shot.colour.config->location, shot.colour.config->key, failure.what()));
-    }
+    return located_at(*shot.colour.config,
+                      [&] { return ColourConfig::load(shot.colour.config->text, environment); });
   };
   ColourConfig colours = load();
   check_colours(shot, colours);
   return colours;
+}
+
+ViewSettings view_of(const Shot& shot) {
+  const ColourSettings& colour = shot.colour;
+  ViewSettings view{colour.working.text, colour.display.text, colour.view.text};
+  if (colour.grade) {
+    const std::string space = colour.grade->space ? colour.grade->space->text : colour.working.text;
+    view.grade = Grade{colour.grade->cdl.text, colour.grade->id, space};
+  }
+  return view;
 }
 
 void check_colours(const Shot& shot, const ColourConfig& colours) {
@@ -49,6 +64,10 @@ void check_colours(const Shot& shot, const ColourConfig& colours) {
   require_among(shot.colour.view, colours.views(shot.colour.display.text), "view of this display");
   for (const Layer& layer : shot.layers) {
     if (layer.image.space) require_space(*layer.image.space, colours);
+  }
+  if (const auto& grade = shot.colour.grade) {
+    if (grade->space) require_space(*grade->space, colours);
+    located_at(grade->cdl, [&] { colours.check_grade(*view_of(shot).grade); });
   }
 }
 

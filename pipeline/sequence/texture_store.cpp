@@ -83,7 +83,8 @@ std::string TextureStore::digest(std::size_t index, int frame) {
 
 ImageEncoding TextureStore::encoding_of(const Layer& layer, const std::string& path) const {
   ImageEncoding encoding;
-  encoding.space = layer.image.space ? layer.image.space->text : colours_.space_of_file(path);
+  encoding.space =
+      layer.image.space ? layer.image.space->text : colours_.space_of_file(path, read_interop_id(path));
   if (layer.image.alpha == AlphaKind::Associated) encoding.premultiplied = true;
   if (layer.image.alpha == AlphaKind::Straight) encoding.premultiplied = false;
   encoding.ignore_alpha = layer.image.alpha == AlphaKind::None;

@@ -143,11 +143,31 @@ void check_shutter(const Value& shutter, NotYet& not_yet) {
   }
 }
 
+GlowTrack read_glow(const Value& glow) {
+  glow.only_keys({"strength", "radius"});
+  constexpr double kLargestRadius = 1;
+  GlowTrack track;
+  track.strength =
+      read_keyed(glow.require("strength", "the share of the light, like 0.05"), [](const Value& v) {
+        const double share = v.quantity(Dimension::Number);
+        if (share < 0 || share > 1) v.refuse(in_quotes(v.text()) + "; allowed: from 0 to 1");
+        return share;
+      });
+  track.radius =
+      read_keyed(glow.require("radius", "a share of the frame's width, like 2 %"), [](const Value& v) {
+        const double share = v.positive(Dimension::Share);
+        if (share > kLargestRadius)
+          v.refuse(in_quotes(v.text()) + "; allowed: more than 0 % and up to 100 %");
+        return share;
+      });
+  return track;
+}
+
 }  // namespace
 
 CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not_yet) {
   camera.only_keys({"projection", "resolution", "fov", "focal_length", "film_width", "position", "look_at",
-                    "rotation", "up", "overscan", "shutter", "from"});
+                    "rotation", "up", "overscan", "shutter", "from", "glow"});
   CameraTrack track;
   track.projection = read_projection(camera);
   const auto size = camera.require("resolution", "[width, height] in pixels")
@@ -170,6 +190,7 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not
         ->refuse(fmt::format("more than {} million pixels with overscan", kMaxPixels >> 20));
   }
   if (const auto shutter = camera.find("shutter")) check_shutter(*shutter, not_yet);
+  if (const auto glow = camera.find("glow")) track.glow = read_glow(*glow);
   return track;
 }
 

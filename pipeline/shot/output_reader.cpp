@@ -62,8 +62,9 @@ OutputSettings read_output(const std::optional<Value>& output, const std::string
   if (const auto data = output->find("data")) settings.data = read_data(*data);
   if (std::find(settings.maps.begin(), settings.maps.end(), true) == settings.maps.end()) settings.data = {};
   if (const auto review = output->find("review")) {
-    constexpr std::array<std::string_view, 2> kNames = {"none", "png"};
-    settings.review = review->choice(kNames) == 1;
+    constexpr std::array<std::string_view, 4> kNames = {"none", "png", "png16", "tiff16"};
+    const std::size_t chosen = review->choice(kNames);
+    settings.review = chosen == 0 ? std::nullopt : std::optional(static_cast<ReviewFormat>(chosen - 1));
   }
   if (const auto locator = output->find("locator")) {
     constexpr std::array<std::string_view, 2> kNames = {"none", "beside"};

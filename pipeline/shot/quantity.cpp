@@ -46,6 +46,7 @@ constexpr std::array kUnits = {
     Unit{"Mearth", Dimension::Mass, geometric_mass_from_gm(kEarthGM)},
     Unit{"Mjup", Dimension::Mass, geometric_mass_from_gm(kJupiterGM)},
     Unit{"px", Dimension::Pixels, 1.0},
+    Unit{"%", Dimension::Share, 0.01},
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -89,6 +90,8 @@ std::string_view noun_of(Dimension dimension) {
       return "a mass";
     case Dimension::Pixels:
       return "a number of pixels";
+    case Dimension::Share:
+      return "a share";
   }
   return {};
 }

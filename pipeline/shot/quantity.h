@@ -16,6 +16,7 @@ enum class Dimension {
   Angle,   // radians
   Mass,    // geometric mass G M / c^2, metres
   Pixels,  // pixels of the output frame
+  Share,   // of a whole
 };
 
 /// "a length", "an angle", ...

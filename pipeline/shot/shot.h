@@ -53,6 +53,12 @@ struct Rotation {
   Keyed<Vec3> angles;
 };
 
+/// Light that is scattered in the camera; see Glow.
+struct GlowTrack {
+  Keyed<double> strength;  // share of the light
+  Keyed<double> radius;    // share of the frame's width
+};
+
 struct CameraTrack {
   int width = 0;
   int height = 0;
@@ -61,6 +67,7 @@ struct CameraTrack {
   std::variant<Keyed<double>, FocalLength> fov;  // radians, as Camera::fov_rad
   Keyed<Vec3> position;
   std::variant<Rotation, LookAt> orientation;
+  std::optional<GlowTrack> glow;
 };
 
 struct LensTrack {
@@ -98,11 +105,19 @@ struct Layer {
   std::variant<PlateLayer, LatLongLayer, SphereLayer> kind;
 };
 
+/// A grade by an ASC CDL, for the picture for review.
+struct GradeSettings {
+  LocatedText cdl;                   // path
+  std::string id;                    // of one correction in the file; empty: the first
+  std::optional<LocatedText> space;  // absent: the working space
+};
+
 struct ColourSettings {
   std::optional<LocatedText> config;  // path
   LocatedText working{"ACEScg", {}, "colour.working"};
   LocatedText display{"sRGB - Display", {}, "colour.display"};
   LocatedText view{"ACES 1.0 - SDR Video", {}, "colour.view"};
+  std::optional<GradeSettings> grade;
 };
 
 /// What the shot asks of the trace; see trace_at.
@@ -113,6 +128,9 @@ struct TraceTrack {
   Choice finite_distance = Choice::Auto;
 };
 
+/// The file of the picture for review: 8 or 16 bits.
+enum class ReviewFormat { Png, Png16, Tiff16 };
+
 /// Where the picture of where the sources are goes.
 enum class Locator { None, Beside };
 
@@ -121,7 +139,7 @@ struct OutputSettings {
   ExrFormat image;
   std::vector<bool> maps;  // per layer
   Effects data;            // passes of the data files, which stand beside the maps; none without maps
-  bool review = true;
+  std::optional<ReviewFormat> review = ReviewFormat::Png;
   Locator locator = Locator::None;
 };
 

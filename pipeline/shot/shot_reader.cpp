@@ -105,13 +105,26 @@ LensTrack read_lens(const Value& lens) {
   return track;
 }
 
+GradeSettings read_grade(const Value& grade) {
+  grade.only_keys({"cdl", "id", "space"});
+  const auto located_text = [](const Value& v) { return LocatedText{v.text(), v.location(), v.key()}; };
+  const Value cdl = grade.require("cdl", "the path of a .cc, .ccc or .cdl");
+  const std::string path = cdl.text();
+  if (!path.ends_with(".cc") && !path.ends_with(".ccc") && !path.ends_with(".cdl"))
+    cdl.refuse(in_quotes(path) + "; allowed: a .cc, .ccc or .cdl");
+  GradeSettings settings{located_text(cdl), {}, std::nullopt};
+  if (const auto id = grade.find("id")) settings.id = id->text();
+  if (const auto space = grade.find("space")) settings.space = located_text(*space);
+  return settings;
+}
+
 ColourSettings read_colour(const Value& root) {
   ColourSettings settings;
   for (LocatedText* name : {&settings.working, &settings.display, &settings.view})
     name->location = root.location();
   const auto colour = root.find("colour");
   if (!colour) return settings;
-  colour->only_keys({"config", "working", "display", "view"});
+  colour->only_keys({"config", "working", "display", "view", "grade"});
   const auto read = [&colour](std::string_view key, LocatedText& name) {
     if (const auto value = colour->find(key)) name = {value->text(), value->location(), value->key()};
   };
@@ -119,6 +132,7 @@ ColourSettings read_colour(const Value& root) {
   read("display", settings.display);
   read("view", settings.view);
   if (colour->find("config")) read("config", settings.config.emplace());
+  if (const auto grade = colour->find("grade")) settings.grade = read_grade(*grade);
   return settings;
 }
 
@@ -179,6 +193,7 @@ Shot read_shot(const std::filesystem::path& path, const std::vector<std::string>
     std::string& pattern = layer.image.pattern.text;
     if (!pattern.starts_with(kShippedPrefix)) pattern = beside_shot(pattern);
   }
+  if (shot.colour.grade) shot.colour.grade->cdl.text = beside_shot(shot.colour.grade->cdl.text);
   if (shot.colour.config) shot.colour.config->text = beside_shot(shot.colour.config->text);
   shot.output.directory = beside_shot(shot.output.directory.string());
   return shot;

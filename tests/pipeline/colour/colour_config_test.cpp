@@ -37,7 +37,7 @@ Rgba working_from(const std::string& space, const std::array<float, 3>& rgb) {
 
 float shown(float value, const std::string& display, const std::string& view) {
   const Picture picture{1, 1, 0, 0, 1, 1, {{value, value, value, 1}}};
-  return builtin().to_display(picture, "ACEScg", display, view).pixels[0][0];
+  return builtin().to_display(picture, {"ACEScg", display, view}).pixels[0][0];
 }
 
 void expect_near(const Rgba& colour, double r, double g, double b) {
@@ -125,6 +125,67 @@ TEST(ColourConfig, FilesGetTheirSpacesByTheRules) {
   EXPECT_EQ(builtin().space_of_file("plates/bg_lin_rec709.exr"), "Linear Rec.709 (sRGB)");
 }
 
+TEST(ColourConfig, WhatAFileSaysGoesBeforeTheRules) {
+  EXPECT_EQ(builtin().space_of_file("bg.exr", "lin_rec709_scene"), "Linear Rec.709 (sRGB)");
+  EXPECT_EQ(builtin().space_of_file("bg.png", "lin_ap0_scene"), "ACES2065-1");
+  EXPECT_EQ(builtin().space_of_file("bg.exr", "srgb_rec709_display"), "sRGB - Display");
+  EXPECT_EQ(builtin().space_of_file("bg.exr", "data"), "Raw");
+  EXPECT_EQ(builtin().space_of_file("bg.png", "unknown"), "sRGB - Texture");
+  const Refusal refusal = refusal_of([] { builtin().space_of_file("bg.exr", "lin_moon_scene"); });
+  EXPECT_EQ(refusal.code, ExitCode::BadInput);
+  EXPECT_EQ(refusal.line,
+            "bg.exr: its colorInteropID \"lin_moon_scene\" is no colour space of the OCIO config; say which "
+            "one it is by space");
+}
+
+TEST(ColourConfig, KnowsWhatDisplaysShow) {
+  EXPECT_EQ(builtin().display_interop_id("sRGB - Display", "ACES 1.0 - SDR Video"), "srgb_rec709_display");
+  EXPECT_EQ(builtin().display_interop_id("P3-D65 - Display", "Un-tone-mapped"), "g26_p3d65_display");
+  EXPECT_EQ(builtin().display_interop_id("sRGB - Display", "Raw"), "");
+}
+
+constexpr const char* kCdl = R"(<ColorCorrectionCollection xmlns="urn:ASC:CDL:v1.2">
+<ColorCorrection id="half"><SOPNode><Slope>0.5 0.5 0.5</Slope><Offset>0 0 0</Offset><Power>1 1 1</Power></SOPNode></ColorCorrection>
+<ColorCorrection id="lift"><SOPNode><Slope>1 1 1</Slope><Offset>0.1 0 0</Offset><Power>1 1 1</Power></SOPNode></ColorCorrection>
+</ColorCorrectionCollection>)";
+
+TEST(ColourConfig, GradesBeforeTheView) {
+  const TemporaryFolder folder;
+  const std::string cdl = folder.write("grade.ccc", kCdl).string();
+  const auto graded = [&](float value, const std::string& id, const std::string& space) {
+    const Picture picture{1, 1, 0, 0, 1, 1, {{value, value, value, 1}}};
+    const ViewSettings view{"ACEScg", "sRGB - Display", "ACES 1.0 - SDR Video", Grade{cdl, id, space}};
+    return builtin().to_display(picture, view).pixels[0];
+  };
+  const float half = shown(0.2F, "sRGB - Display", "ACES 1.0 - SDR Video");
+  EXPECT_NEAR(graded(0.4F, "", "ACEScg")[1], half, 1e-5);
+  EXPECT_NEAR(graded(0.4F, "half", "ACEScg")[1], half, 1e-5);
+  EXPECT_GT(graded(0.2F, "lift", "ACEScg")[0], graded(0.2F, "lift", "ACEScg")[1] + 0.05F);
+  // An offset of a logarithm is a factor of light.
+  EXPECT_GT(graded(0.2F, "lift", "ACEScct")[0], graded(0.2F, "lift", "ACEScg")[0] + 0.05F);
+  const ViewSettings plain{"ACEScg", "sRGB - Display", "Un-tone-mapped"};
+  ViewSettings with = plain;
+  with.grade = Grade{cdl, "half", "ACEScg"};
+  EXPECT_NE(builtin().view_id(plain), builtin().view_id(with));
+}
+
+TEST(ColourConfig, GradesThatCannotBeReadAreRefusedByName) {
+  const TemporaryFolder folder;
+  const auto line = [&](const std::string& name, const std::string& id) {
+    const Refusal refusal = refusal_of([&] {
+      builtin().check_grade({(folder / name).string(), id, "ACEScg"});
+    });
+    EXPECT_EQ(refusal.code == ExitCode::BadInput, !refusal.line.empty());
+    return refusal.line;
+  };
+  folder.write("grade.ccc", kCdl);
+  folder.write("broken.cc", "<ColorCorrection><SOPNode>");
+  EXPECT_EQ(line("grade.ccc", "half"), "");
+  EXPECT_EQ(line("none.cc", ""), (folder / "none.cc").string() + ": no such file");
+  EXPECT_THAT(line("broken.cc", ""), HasSubstr("broken.cc: cannot be read as a CDL: "));
+  EXPECT_THAT(line("grade.ccc", "third"), HasSubstr("grade.ccc: cannot be read as a CDL: "));
+}
+
 TEST(ColourConfig, KnowsWhatSpacesAreCalledElsewhere) {
   EXPECT_EQ(builtin().interop_id("ACEScg"), "lin_ap1_scene");
   EXPECT_EQ(builtin().interop_id("ACES2065-1"), "lin_ap0_scene");
@@ -146,8 +207,8 @@ TEST(ColourConfig, ConversionsAreKnownByWhatTheyCompute) {
   EXPECT_EQ(builtin().conversion_id("ACEScg", "ACES2065-1"), builtin().conversion_id("acescg", "lin_ap0"));
   EXPECT_NE(builtin().conversion_id("ACEScg", "ACES2065-1"),
             builtin().conversion_id("ACEScct", "ACES2065-1"));
-  EXPECT_NE(builtin().view_id("ACEScg", "sRGB - Display", "ACES 1.0 - SDR Video"),
-            builtin().view_id("ACEScg", "sRGB - Display", "Un-tone-mapped"));
+  EXPECT_NE(builtin().view_id({"ACEScg", "sRGB - Display", "ACES 1.0 - SDR Video"}),
+            builtin().view_id({"ACEScg", "sRGB - Display", "Un-tone-mapped"}));
 }
 
 TEST(ColourConfig, ConfigsAreTakenInTheirOrderAndRefusedByName) {

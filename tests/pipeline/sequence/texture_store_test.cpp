@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/image/png_writer.h"
+#include "pipeline/image/display_writer.h"
 #include "tests/pipeline/expect_failure.h"
 #include "tests/pipeline/shot/example_shot.h"
 #include "tests/pipeline/temporary_folder.h"
@@ -21,7 +21,7 @@ ColourConfig builtin() {
 }
 
 void write_grey(const std::filesystem::path& path, float value) {
-  write_png(path, Picture{1, 1, 0, 0, 1, 1, {{value, value, value, 1}}}, {});
+  write_display(path, Picture{1, 1, 0, 0, 1, 1, {{value, value, value, 1}}}, 8, {});
 }
 
 TEST(TextureStore, KeepsStillsAndReadsSequencesByFrame) {

@@ -50,6 +50,34 @@ TEST(ShotReader, ReadsTheExample) {
   EXPECT_EQ(shot.colour.working.text, "ACEScg");
 }
 
+TEST(ShotReader, ReadsTheGlowOfTheCamera) {
+  EXPECT_FALSE(example_shot().camera.glow);
+  const Shot shot = example_shot({"camera.glow={strength: {keys: {1: 0, 3: 0.2}}, radius: 2 %}"});
+  ASSERT_TRUE(shot.camera.glow);
+  EXPECT_DOUBLE_EQ(value_at(shot.camera.glow->strength, 2), 0.1);
+  EXPECT_DOUBLE_EQ(value_at(shot.camera.glow->radius, 2), 0.02);
+  EXPECT_THAT(line_for_setting("camera.glow={strength: 1.5, radius: 2 %}"),
+              HasSubstr("camera.glow.strength: \"1.5\"; allowed: from 0 to 1"));
+  EXPECT_THAT(line_for_setting("camera.glow={strength: 0.1, radius: 101 %}"),
+              HasSubstr("camera.glow.radius: \"101 %\"; allowed: more than 0 % and up to 100 %"));
+  EXPECT_THAT(line_for_setting("camera.glow={strength: 0.1, radius: 2}"),
+              HasSubstr("\"2\" has no unit; a share is needed, in %"));
+  EXPECT_THAT(line_for_setting("camera.glow={strength: 0.1}"), HasSubstr("radius"));
+  EXPECT_THAT(line_for_setting("camera.glow={strength: 0.1, radius: 1 %, colour: red}"), HasSubstr("colour"));
+}
+
+TEST(ShotReader, ReadsTheGrade) {
+  EXPECT_FALSE(example_shot().colour.grade);
+  const Shot shot = example_shot({"colour.grade={cdl: a.ccc, id: warm, space: ACEScct}"});
+  ASSERT_TRUE(shot.colour.grade);
+  EXPECT_EQ(shot.colour.grade->cdl.text, "a.ccc");
+  EXPECT_EQ(shot.colour.grade->id, "warm");
+  EXPECT_EQ(shot.colour.grade->space->text, "ACEScct");
+  EXPECT_THAT(line_for_setting("colour.grade={cdl: look.cube}"),
+              HasSubstr("colour.grade.cdl: \"look.cube\"; allowed: a .cc, .ccc or .cdl"));
+  EXPECT_THAT(line_for_setting("colour.grade={id: warm}"), HasSubstr("colour.grade.cdl"));
+}
+
 TEST(ShotReader, ReadsWhatTheExampleLeavesOut) {
   const Shot shot = example_shot(
       {"fps=23.976", "camera.overscan=8", "output.maps=[background]",
@@ -64,6 +92,7 @@ TEST(ShotReader, ReadsWhatTheExampleLeavesOut) {
   EXPECT_EQ(shot.output.image.type, PixelType::Float);
   EXPECT_EQ(shot.output.image.compression, ExrCompression::Piz);
   EXPECT_FALSE(shot.output.review);
+  EXPECT_EQ(example_shot({"output.review=tiff16"}).output.review, ReviewFormat::Tiff16);
   EXPECT_EQ(shot.output.locator, Locator::Beside);
   EXPECT_EQ(std::get<PlateLayer>(shot.layers[1].kind).edge, Edge::Mirror);
   EXPECT_EQ(shot.layers[0].image.space->text, "Raw");
@@ -254,7 +283,7 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
       {"output.data=some", "allowed: all, none"},
       {"output.image={type: double}", "allowed: half, float"},
       {"output.image={compression: zap}", "allowed: none, rle"},
-      {"output.review=jpeg", "allowed: none, png"},
+      {"output.review=jpeg", "allowed: none, png, png16, tiff16"},
       {"output.movie=gif", "allowed: none, mp4, prores"},
       {"output.locator=left", "allowed: none, beside"},
       {"colour={gamma: 2}", "unknown key"},

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/composite/glow.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace lensplane {
+namespace {
+
+using Rgb = std::array<float, 3>;
+
+// Binomial kernels: one blurs, the other, between two rows of pixels, halves and doubles.
+constexpr std::array<float, 7> kBlur = {1 / 64.F,  6 / 64.F, 15 / 64.F, 20 / 64.F,
+                                        15 / 64.F, 6 / 64.F, 1 / 64.F};
+constexpr double kBlurVariance = 1.5;
+constexpr std::array<float, 4> kHalve = {1 / 8.F, 3 / 8.F, 3 / 8.F, 1 / 8.F};
+constexpr double kHalveVariance = 0.75;
+
+/// Light of the picture at one of its sizes. Outside of it there is none.
+struct Level {
+  int width = 0;
+  int height = 0;
+  int left = 0;  // of the first pixel, in pixels of this level from the picture's corner
+  int top = 0;
+  std::vector<Rgb> pixels;
+
+  Level(int width_, int height_, int left_, int top_)
+      : width(width_), height(height_), left(left_), top(top_) {
+    pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  }
+  Rgb& at(int column, int row) {
+    return pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(column)];
+  }
+  /// Column and row as `left` and `top` count them.
+  Rgb value(int column, int row) const {
+    const int i = column - left, j = row - top;
+    if (i < 0 || i >= width || j < 0 || j >= height) return {0, 0, 0};
+    return pixels[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(i)];
+  }
+};
+
+/// Fills a level, rows in parallel: `make(column, row)` as `left` and `top` count them.
+template <class Make>
+Level filled(Level level, Make make) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, level.height, 8), [&](const tbb::blocked_range<int>& rows) {
+    for (int row = rows.begin(); row != rows.end(); ++row) {
+      for (int column = 0; column < level.width; ++column)
+        level.at(column, row) = make(column + level.left, row + level.top);
+    }
+  });
+  return level;
+}
+
+void add_scaled(Rgb& sum, const Rgb& colour, float weight) {
+  for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * colour[c];
+}
+
+/// What `kernel` makes of the pixels from (column, row) on, to the right or downward.
+template <std::size_t count>
+Rgb weighted(const Level& level, int column, int row, bool downward, const std::array<float, count>& kernel) {
+  Rgb sum{0, 0, 0};
+  for (std::size_t k = 0; k < count; ++k) {
+    const int offset = static_cast<int>(k);
+    add_scaled(sum, level.value(column + (downward ? 0 : offset), row + (downward ? offset : 0)), kernel[k]);
+  }
+  return sum;
+}
+
+int floor_half(int i) {
+  return i >= 0 ? i / 2 : -((1 - i) / 2);
+}
+
+/// Half as wide and as high; large enough for all the light.
+Level halved(const Level& level) {
+  const int left = floor_half(level.left) - 1, right = floor_half(level.left + level.width) + 1;
+  const int top = floor_half(level.top) - 1, bottom = floor_half(level.top + level.height) + 1;
+  const Level narrow =
+      filled(Level(right - left + 1, level.height, left, level.top),
+             [&](int column, int row) { return weighted(level, 2 * column - 1, row, false, kHalve); });
+  return filled(Level(narrow.width, bottom - top + 1, left, top),
+                [&](int column, int row) { return weighted(narrow, column, 2 * row - 1, true, kHalve); });
+}
+
+/// What pixel `i` of a level takes from the next smaller one: kHalve backwards. From the pixel that it lies
+/// in, and from that pixel's neighbour on its own side.
+struct Upward {
+  int own, other;
+};
+Upward upward(int i) {
+  const int own = floor_half(i);
+  return {own, 2 * own == i ? own - 1 : own + 1};
+}
+
+/// `level` with the next smaller one added to it, spread to its size.
+Level with_doubled(Level level, const Level& smaller) {
+  constexpr float kOwn = 2 * kHalve[1] / 2, kOther = 2 * kHalve[0] / 2;
+  tbb::parallel_for(tbb::blocked_range<int>(0, level.height, 8), [&](const tbb::blocked_range<int>& rows) {
+    for (int j = rows.begin(); j != rows.end(); ++j) {
+      const Upward y = upward(j + level.top);
+      for (int i = 0; i < level.width; ++i) {
+        const Upward x = upward(i + level.left);
+        Rgb& sum = level.at(i, j);
+        add_scaled(sum, smaller.value(x.own, y.own), kOwn * kOwn * 4);
+        add_scaled(sum, smaller.value(x.other, y.own), kOther * kOwn * 4);
+        add_scaled(sum, smaller.value(x.own, y.other), kOwn * kOther * 4);
+        add_scaled(sum, smaller.value(x.other, y.other), kOther * kOther * 4);
+      }
+    }
+  });
+  return level;
+}
+
+/// Blurred and weighted, with the margin that the larger levels' pixels take from.
+Level blurred(const Level& level, float weight) {
+  constexpr int kMargin = 3, kReach = static_cast<int>(kBlur.size()) / 2;
+  const Level wide =
+      filled(Level(level.width + 2 * kMargin, level.height, level.left - kMargin, level.top),
+             [&](int column, int row) { return weighted(level, column - kReach, row, false, kBlur); });
+  return filled(Level(wide.width, level.height + 2 * kMargin, wide.left, level.top - kMargin),
+                [&](int column, int row) {
+                  Rgb sum = weighted(wide, column, row - kReach, true, kBlur);
+                  for (float& channel : sum) channel *= weight;
+                  return sum;
+                });
+}
+
+/// Variance of the blur at a level, in pixels of the picture: its own, and those of halving and doubling on
+/// the way there and back.
+double variance_of(int level) {
+  const double scale2 = std::exp2(2.0 * level);
+  return kBlurVariance * scale2 + 2 * kHalveVariance * (scale2 - 1) / 3;
+}
+
+/// Shares of P in its Gaussians. As a mixture of Gaussians over the logarithm of their width sigma P has the
+/// density r0 / sigma exp(-(r0 / sigma)^2 / 2) times a constant.
+std::vector<float> weights_of(const Glow& glow, int longest_side) {
+  const double r0 = glow.radius_px / std::sqrt(3.0);
+  std::vector<double> densities;
+  double sum = 0;
+  for (int level = 0;; ++level) {
+    const double variance = variance_of(level);
+    const double x = r0 / std::sqrt(variance);
+    densities.push_back(x * std::exp(-0.5 * x * x));
+    sum += densities.back();
+    const bool wider_than_picture = std::sqrt(variance) > 4.0 * longest_side;
+    const bool past_the_peak = x < 0.25;
+    if (wider_than_picture && past_the_peak) break;
+  }
+  // All wider ones together, each with half the share of the one before, are as much as the last.
+  densities.back() *= 2;
+  sum += densities.back() / 2;
+  std::vector<float> weights;
+  for (const double density : densities) weights.push_back(static_cast<float>(density / sum));
+  return weights;
+}
+
+/// The scattered light as if all of it were scattered.
+Level scattered(const Level& light, const std::vector<float>& weights) {
+  std::vector<Level> levels;
+  Level level = light;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    if (k > 0) level = halved(level);
+    levels.push_back(blurred(level, weights[k]));
+  }
+  Level sum = std::move(levels.back());
+  for (std::size_t k = levels.size() - 1; k-- > 0;) sum = with_doubled(std::move(levels[k]), sum);
+  return sum;
+}
+
+}  // namespace
+
+Picture with_glow(const Picture& picture, const Glow& glow) {
+  const Level light = filled(Level(picture.width, picture.height, 0, 0), [&](int column, int row) {
+    const Rgba& pixel = picture.at(column, row);
+    return Rgb{pixel[0], pixel[1], pixel[2]};
+  });
+  const Level veil = scattered(light, weights_of(glow, std::max(picture.width, picture.height)));
+  Picture result = picture;
+  const auto share = static_cast<float>(glow.strength);
+  for (int row = 0; row < picture.height; ++row) {
+    for (int column = 0; column < picture.width; ++column) {
+      Rgba& pixel = result.at(column, row);
+      const Rgb spread = veil.value(column, row);
+      for (std::size_t c = 0; c < 3; ++c) pixel[c] += share * (spread[c] - pixel[c]);
+    }
+  }
+  return result;
+}
+
+}  // namespace lensplane

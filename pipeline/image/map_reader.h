@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Deflection maps from disk: STMaps of ours, edited ones, and those of other programs, with the data files
+// beside ours.
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace lensplane {
+
+/// Where t = 0 lies.
+enum class StOrigin { BottomLeft, TopLeft };
+
+/// Which point of a picture is seen at every pixel, row by row from the top. The data window lies in the
+/// display window as Picture says. s and t are finite; origin at the bottom left, as everywhere in memory.
+struct StMap {
+  int width = 0;
+  int height = 0;
+  int x = 0;
+  int y = 0;
+  int display_width = 0;
+  int display_height = 0;
+  bool half = false;  // s and t were stored as half: blocks of up to half a pixel and more
+  std::vector<float> s, t;
+  std::vector<float> coverage;  // 0 to 1; 0 where s and t mean nothing
+
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+  }
+};
+
+/// Derivatives of s and t by the film position, per pixel; x to the right, y down.
+struct MapJacobian {
+  std::vector<float> ds_dx, ds_dy, dt_dx, dt_dy;
+};
+
+/// What a data file has that a picture is made with.
+struct MapData {
+  std::optional<MapJacobian> jacobian;
+  std::vector<float> depth;  // metres along the ray, the largest float at infinity; empty when there is none
+};
+
+/// Reads s from R, t from G, coverage from B, without B (or where B is 0 everywhere though s or t is not)
+/// from A, else it is 1. `origin` says where t = 0 lies; nothing: as the file says by lensplane:st_origin,
+/// else at the bottom left. What is not a finite number counts as not covered. Throws Failure (BadInput) that
+/// names the path when the file is missing, broken, no map, or one of whole numbers.
+StMap read_st_map(const std::filesystem::path& path, std::optional<StOrigin> origin = std::nullopt);
+
+/// Reads what there is of a data file's jacobian.* and depth.z. Throws Failure (BadInput) also when its
+/// windows are not those of `map`.
+MapData read_map_data(const std::filesystem::path& path, const StMap& map);
+
+/// The data file beside a map of ours: SHOT.LAYER.data.1001.exr for SHOT.LAYER.map.1001.exr; nothing when the
+/// name is none of ours or there is no such file.
+std::optional<std::filesystem::path> data_file_beside(const std::filesystem::path& map);
+
+}  // namespace lensplane

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/sequence/map_layers.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "pipeline/composite/map_jacobian.h"
+#include "pipeline/image/failure.h"
+#include "pipeline/sequence/fingerprint.h"
+#include "pipeline/sequence/output_paths.h"
+
+namespace lensplane {
+namespace {
+
+std::filesystem::path existing_map(const Shot& shot, const Layer& layer, int frame) {
+  const std::filesystem::path path = map_path(shot, layer.name, frame);
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    throw Failure(ExitCode::BadInput,
+                  fmt::format("{}: no such map; lensplane map {} makes it", path.string(), shot.file));
+  }
+  return path;
+}
+
+StMap read_map_of(const Camera& camera, const std::filesystem::path& path) {
+  StMap map = read_st_map(path);
+  const bool same = map.width == camera.full_width() && map.height == camera.full_height() &&
+                    map.x == -camera.overscan && map.y == -camera.overscan &&
+                    map.display_width == camera.width && map.display_height == camera.height;
+  if (!same) {
+    throw Failure(ExitCode::BadInput,
+                  fmt::format("{}: a map of {} x {} pixels from ({}, {}); the shot's camera has {} x {} from "
+                              "({}, {})",
+                              path.string(), map.width, map.height, map.x, map.y, camera.full_width(),
+                              camera.full_height(), -camera.overscan, -camera.overscan));
+  }
+  return map;
+}
+
+/// How far away a surface is as a whole.
+double distance_of(const Surface& surface, const Vec3& camera) {
+  const auto* sphere = std::get_if<Sphere>(&surface);
+  return sphere ? (sphere->centre - camera).length() : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::vector<MapLayer> load_map_layers(const Shot& shot, const Scene& scene,
+                                      const std::vector<SurfaceLook>& looks, int frame) {
+  std::vector<MapLayer> layers;
+  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+    const std::filesystem::path path = existing_map(shot, shot.layers[k], frame);
+    const Surface& surface = scene.surfaces[k];
+    MapLayer layer;
+    layer.map = read_map_of(scene.camera, path);
+    layer.look = looks[k];
+    layer.distance = distance_of(surface, scene.camera.position);
+    layer.is_sky = std::holds_alternative<LatLong>(surface);
+    const Picture& picture = layer.look.texture->picture();
+    const MappedPicture mapped{picture.display_width, picture.display_height,
+                               layer.is_sky || std::holds_alternative<Sphere>(surface), false};
+    MapData data;
+    if (const auto data_file = data_file_beside(path)) data = read_map_data(*data_file, layer.map);
+    layer.depth = std::move(data.depth);
+    layer.footprints = data.jacobian ? footprints_from_jacobian(layer.map, *data.jacobian, mapped)
+                                     : footprints_from_differences(layer.map, mapped);
+    layers.push_back(std::move(layer));
+  }
+  return layers;
+}
+
+std::string digest_of_maps(const Shot& shot, int frame) {
+  Fingerprint print;
+  for (const Layer& layer : shot.layers) {
+    const std::filesystem::path path = existing_map(shot, layer, frame);
+    print.add_file(path);
+    if (const auto data_file = data_file_beside(path)) print.add("data").add_file(*data_file);
+  }
+  return print.digest();
+}
+
+}  // namespace lensplane

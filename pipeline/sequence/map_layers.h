@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The layers of a frame as their maps on disk have them: for pictures from maps that somebody edited.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/composite/map_composite.h"
+#include "pipeline/shot/shot.h"
+#include "src/scene.h"
+
+namespace lensplane {
+
+/// Reads the maps of all layers, and what their data files say of jacobian and depth. `looks` in the order of
+/// the layers. Throws Failure (BadInput) when a map is missing, broken, or has other windows than the shot's
+/// camera.
+std::vector<MapLayer> load_map_layers(const Shot& shot, const Scene& scene,
+                                      const std::vector<SurfaceLook>& looks, int frame);
+
+/// A hash of the contents of these files. Throws Failure (BadInput) when a map is missing.
+std::string digest_of_maps(const Shot& shot, int frame);
+
+}  // namespace lensplane
