@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "src/bodies.h"
 #include "src/geodesic_batch.h"
 #include "src/march.h"
 #include "src/planes_march.h"
@@ -12,22 +13,24 @@ namespace lensplane {
 namespace {
 
 template <class Number>
-SurfaceHit<Number> hit_of_ball(const Sphere& sphere, const Vector<Number>& first, const BallHit<Number>& ball,
-                               bool captured) {
+SurfaceHit<Number> hit_of_body(const Surface& surface, const Camera& camera, FilmPosition film,
+                               const Vector<Number>& first, const BodyHit<Number>& body, bool captured) {
   SurfaceHit<Number> hit;
   hit.outcome = captured ? Outcome::Captured : Outcome::Missed;
-  if (!ball.hit) return hit;
-  hit = meet_sphere_at(sphere, first, ball.point);
-  hit.distance = value_of(ball.length);
-  hit.direction = ball.direction;
-  hit.delay = value_of(ball.delay);
+  if (!body.hit) return hit;
+  hit = meet_body_at(surface, camera, film, first, body.point);
+  hit.direction = body.direction;
+  if (hit.outcome != Outcome::Hit) return hit;
+  hit.distance = value_of(body.length);
+  hit.delay = value_of(body.delay);
   return hit;
 }
 
-/// The masses and balls of the scene as curved rays meet them.
+/// The masses and bodies of the scene as curved rays meet them.
 struct CurvedScene {
   std::vector<PointMass> masses;
   std::vector<Ball> balls;
+  std::vector<Disc> discs;
 };
 
 CurvedScene curved_scene(const Sight& sight, const Plan& plan) {
@@ -38,6 +41,8 @@ CurvedScene curved_scene(const Sight& sight, const Plan& plan) {
   for (const Surface& surface : sight.surfaces) {
     if (const auto* sphere = std::get_if<Sphere>(&surface)) {
       scene.balls.push_back({sphere->centre, sphere->radius});
+    } else if (const auto disc = disc_of(surface)) {
+      scene.discs.push_back(*disc);
     }
   }
   return scene;
@@ -48,9 +53,11 @@ std::vector<SurfaceHit<Number>> hits_of(const Sight& sight, FilmPosition film, c
                                         const GeodesicRay<Number>& ray) {
   std::vector<SurfaceHit<Number>> hits;
   auto ball = ray.hits.begin();
+  auto disc = ray.disc_hits.begin();
   for (const Surface& surface : sight.surfaces) {
-    if (const auto* sphere = std::get_if<Sphere>(&surface)) {
-      hits.push_back(hit_of_ball(*sphere, first, *ball++, ray.captured));
+    if (is_body(surface)) {
+      const BodyHit<Number>& body = std::holds_alternative<Sphere>(surface) ? *ball++ : *disc++;
+      hits.push_back(hit_of_body(surface, sight.camera, film, first, body, ray.captured));
     } else if (ray.captured) {
       hits.emplace_back().outcome = Outcome::Captured;
     } else {
@@ -79,8 +86,8 @@ std::vector<std::vector<SurfaceHit<Number>>> trace_curved_rays(const Sight& sigh
   std::vector<Vector<Number>> first;
   for (const FilmPosition film : films) first.push_back(direction_from_film<Number>(sight.camera, film));
   const Vector<Number> camera(Number(0.0), Number(0.0), Number(0.0));
-  const auto rays =
-      trace_geodesics<Number>(scene.masses, camera, first, plan.geodesic_tolerance, scene.balls);
+  const auto rays = trace_geodesics<Number>(scene.masses, camera, first, plan.geodesic_tolerance,
+                                            {scene.balls, scene.discs});
   std::vector<std::vector<SurfaceHit<Number>>> hits;
   for (std::size_t i = 0; i < films.size(); ++i) {
     hits.push_back(hits_of(sight, films[i], first[i], rays[i]));
