@@ -52,19 +52,6 @@ Vector<Number> shift_by(const Deflector& deflector, Bent bent, const RaySegment<
   return across * (2.0 * deflector.m * share);
 }
 
-/// Metres along a stretch to where it enters the ball, or else is nearest to its centre; within the stretch.
-template <class Number>
-Number way_to_ball(const RaySegment<Number>& stretch, const Sphere& sphere) {
-  const Vector<Number> to_centre = constant<Number>(sphere.centre) - stretch.start;
-  const Number along = to_centre.dot(stretch.direction);
-  const Vector<Number> across = to_centre - stretch.direction * along;
-  const Number half_chord2 = Number(sphere.radius * sphere.radius) - across.dot(across);
-  const Number way = value_of(half_chord2) > 0.0 ? along - sqrt(half_chord2) : along;
-  if (!(value_of(way) > 0.0)) return 0.0;
-  // Its end bounds the stretch as a number: batches do not keep that length's derivatives.
-  return value_of(way) < value_of(stretch.length) ? way : Number(value_of(stretch.length));
-}
-
 }  // namespace
 
 template <class Number>
@@ -94,8 +81,7 @@ RaySegment<Number> straight_between(const Vector<Number>& start, const Vector<Nu
 
 template <class Number>
 RaySegment<Number> shifted(const Deflectors& deflectors, const RaySegment<Number>& stretch,
-                           const Sphere& sphere) {
-  const Number way = way_to_ball(stretch, sphere);
+                           const Number& way) {
   RaySegment<Number> result = stretch;
   result.start += finite_shift(deflectors, stretch, Number(0.0));
   if (!(value_of(way) > 0.0)) return result;
@@ -116,8 +102,8 @@ template Vec3 finite_shift(const Deflectors&, const RaySegment<double>&, const d
 template DualVec3 finite_shift(const Deflectors&, const RaySegment<Dual>&, const Dual&);
 template RaySegment<double> straight_between(const Vec3&, const Vec3&, const RaySegment<double>&);
 template RaySegment<Dual> straight_between(const DualVec3&, const DualVec3&, const RaySegment<Dual>&);
-template RaySegment<double> shifted(const Deflectors&, const RaySegment<double>&, const Sphere&);
-template RaySegment<Dual> shifted(const Deflectors&, const RaySegment<Dual>&, const Sphere&);
+template RaySegment<double> shifted(const Deflectors&, const RaySegment<double>&, const double&);
+template RaySegment<Dual> shifted(const Deflectors&, const RaySegment<Dual>&, const Dual&);
 template RaySegment<double> chord_between(const Deflectors&, const RaySegment<double>&,
                                           const RaySegment<double>&);
 template RaySegment<Dual> chord_between(const Deflectors&, const RaySegment<Dual>&, const RaySegment<Dual>&);

@@ -24,11 +24,11 @@ template <class Number>
 Vector<Number> finite_shift(const Deflectors& deflectors, const RaySegment<Number>& stretch,
                             const Number& way);
 
-/// A straight stretch as it truly runs where it enters a ball: from its own shifted start through the shifted
-/// point of it where it does, or else is nearest to its centre.
+/// A straight stretch as it truly runs at a body that it meets, or else comes nearest to, `way` metres from
+/// its start: from its own shifted start through its shifted point there.
 template <class Number>
 RaySegment<Number> shifted(const Deflectors& deflectors, const RaySegment<Number>& stretch,
-                           const Sphere& sphere);
+                           const Number& way);
 
 /// The chord from the shifted end of one stretch to the shifted start of the next.
 template <class Number>

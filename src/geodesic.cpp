@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "src/geodesic_crossing.h"
 #include "src/geodesic_entry.h"
 #include "src/geodesic_flight.h"
 
@@ -12,9 +13,11 @@ namespace {
 
 /// A ray in empty space.
 template <class N>
-GeodesicRay<N> straight_ray(const Vector<N>& start, const Vector<N>& direction, std::span<const Ball> balls) {
+GeodesicRay<N> straight_ray(const Vector<N>& start, const Vector<N>& direction, const Bodies& bodies) {
   GeodesicRay<N> ray{.direction = direction, .position = start};
+  const auto& [balls, discs] = bodies;
   ray.hits.resize(balls.size());
+  ray.disc_hits.resize(discs.size());
   const Launch<N> launch{start, direction, 0.0};
   for (std::size_t i = 0; i < balls.size(); ++i) {
     RayPoint<N> point = first_point({}, launch);
@@ -24,6 +27,16 @@ GeodesicRay<N> straight_ray(const Vector<N>& start, const Vector<N>& direction, 
     point.x += times(direction, N(approach.t));
     ray.hits[i] = hit_at(launch, point, balls[i]);
   }
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    DiscPassage passage;
+    const RaySegment<double> ahead{value_of(start), value_of(direction)};
+    const auto crossing = meet_disc(discs[i], ahead, nullptr, passage);
+    if (!crossing) continue;
+    RayPoint<N> point = first_point({}, launch);
+    point.t = crossing->way;
+    point.x += times(direction, N(crossing->way));
+    ray.disc_hits[i] = hit_at(launch, point, discs[i]);
+  }
   return ray;
 }
 
@@ -31,12 +44,12 @@ GeodesicRay<N> straight_ray(const Vector<N>& start, const Vector<N>& direction, 
 
 template <class N>
 GeodesicRay<N> trace_geodesic(std::span<const PointMass> masses, const Vector<N>& start,
-                              const Vector<N>& direction, double tolerance, std::span<const Ball> balls) {
-  if (masses.empty()) return straight_ray(start, direction, balls);
+                              const Vector<N>& direction, double tolerance, const Bodies& bodies) {
+  if (masses.empty()) return straight_ray(start, direction, bodies);
   if (std::ranges::any_of(masses, [](const PointMass& mass) { return !(mass.m > 0.0); })) {
-    return trace_geodesic<N>(without_zeros(masses), start, direction, tolerance, balls);
+    return trace_geodesic<N>(without_zeros(masses), start, direction, tolerance, bodies);
   }
-  GeodesicFlight<N> flight({masses, balls, std::max(kFinestTolerance, tolerance)}, start, direction);
+  GeodesicFlight<N> flight({masses, bodies, std::max(kFinestTolerance, tolerance)}, start, direction);
   while (flight.flies()) {
     flight.go_on(take_step(masses, flight.launch(), flight.at(), flight.step_length()));
   }
@@ -44,8 +57,8 @@ GeodesicRay<N> trace_geodesic(std::span<const PointMass> masses, const Vector<N>
 }
 
 template GeodesicRay<double> trace_geodesic(std::span<const PointMass>, const Vec3&, const Vec3&, double,
-                                            std::span<const Ball>);
+                                            const Bodies&);
 template GeodesicRay<Dual> trace_geodesic(std::span<const PointMass>, const DualVec3&, const DualVec3&,
-                                          double, std::span<const Ball>);
+                                          double, const Bodies&);
 
 }  // namespace lensplane

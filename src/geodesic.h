@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "src/disc.h"
 #include "src/fermat.h"
 
 namespace lensplane {
@@ -23,9 +24,15 @@ struct Ball {
   double radius;  // metres, > 0
 };
 
-/// Where a ray first enters a ball from outside.
+/// What a ray may meet on its way.
+struct Bodies {
+  std::span<const Ball> balls = {};
+  std::span<const Disc> discs = {};
+};
+
+/// Where a ray first enters a ball from outside, or crosses a disc as often as it asks for.
 template <class N>
-struct BallHit {
+struct BodyHit {
   bool hit = false;
   Vector<N> point{N(0.0)};  // metres
   Vec3 direction{0.0};      // of the ray there, unit vector
@@ -48,7 +55,8 @@ struct GeodesicRay {
   /// foot.
   N delay = 0.0;
 
-  std::vector<BallHit<N>> hits{};  // one for each ball
+  std::vector<BodyHit<N>> hits{};       // one for each ball
+  std::vector<BodyHit<N>> disc_hits{};  // one for each disc
 };
 
 /// A ray that takes more steps is taken to be captured.
@@ -69,6 +77,6 @@ inline constexpr double kFinestTolerance = 1e-16;
 /// (beyond 1e150 m) the ray counts as captured.
 template <class N>
 GeodesicRay<N> trace_geodesic(std::span<const PointMass> masses, const Vector<N>& start,
-                              const Vector<N>& direction, double tolerance, std::span<const Ball> balls = {});
+                              const Vector<N>& direction, double tolerance, const Bodies& bodies = {});
 
 }  // namespace lensplane

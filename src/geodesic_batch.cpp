@@ -73,26 +73,24 @@ class Lanes {
 template <class N>
 std::vector<GeodesicRay<N>> trace_geodesics(std::span<const PointMass> masses, const Vector<N>& start,
                                             std::span<const Vector<N>> directions, double tolerance,
-                                            std::span<const Ball> balls) {
+                                            const Bodies& bodies) {
   const std::vector<PointMass> heavy = without_zeros(masses);
   std::vector<GeodesicRay<N>> rays(directions.size());
   if (heavy.empty()) {
     std::ranges::transform(directions, rays.begin(), [&](const Vector<N>& direction) {
-      return trace_geodesic<N>({}, start, direction, tolerance, balls);
+      return trace_geodesic<N>({}, start, direction, tolerance, bodies);
     });
     return rays;
   }
-  const GeodesicScene scene{heavy, balls, std::max(kFinestTolerance, tolerance)};
+  const GeodesicScene scene{heavy, bodies, std::max(kFinestTolerance, tolerance)};
   const auto lanes = std::make_unique<Lanes<N>>(scene, start, directions, rays);
   while (lanes->launch()) lanes->go_on();
   return rays;
 }
 
 template std::vector<GeodesicRay<double>> trace_geodesics(std::span<const PointMass>, const Vec3&,
-                                                          std::span<const Vec3>, double,
-                                                          std::span<const Ball>);
+                                                          std::span<const Vec3>, double, const Bodies&);
 template std::vector<GeodesicRay<Dual>> trace_geodesics(std::span<const PointMass>, const DualVec3&,
-                                                        std::span<const DualVec3>, double,
-                                                        std::span<const Ball>);
+                                                        std::span<const DualVec3>, double, const Bodies&);
 
 }  // namespace lensplane

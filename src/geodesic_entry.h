@@ -69,18 +69,16 @@ std::optional<RayPoint<N>> find_entry(std::span<const PointMass> masses, const L
   return std::nullopt;
 }
 
-/// The hit of a ray that is all but on the ball's surface at `point`. The last step on to the surface is
-/// Newton's; taken in N, it carries the derivatives: where they enter later, rays end farther on.
+/// The hit of a ray that stands at `point` and meets a body's surface `step` farther on, in t: a last step,
+/// so short that it is straight.
 template <class N>
-BallHit<N> hit_at(const Launch<N>& launch, const RayPoint<N>& point, const Ball& ball) {
+BodyHit<N> hit_beyond(const Launch<N>& launch, const RayPoint<N>& point, const N& step) {
   using std::sqrt;
-  const Vector<N> q = relative_to(ball.centre, point.x);
-  const N step = (ball.radius * ball.radius - q.dot(q)) * reciprocal(2.0 * q.dot(point.p));
   const N& excess = point.medium.excess;
   const N t = point.t + step;
   const Vector<N> xi = point.xi + times(point.pi, step);
 
-  BallHit<N> hit;
+  BodyHit<N> hit;
   hit.hit = true;
   hit.point = point.x + times(point.p, step);
   hit.direction = value_of(point.p).normalized();
@@ -92,6 +90,14 @@ BallHit<N> hit_at(const Launch<N>& launch, const RayPoint<N>& point, const Ball&
       (2.0 * straight * launch.direction.dot(xi) + xi.dot(xi)) * reciprocal(straight + sqrt(way.dot(way)));
   hit.delay = (point.time + excess * (2.0 + excess) * step) - launch.excess * t - longer;
   return hit;
+}
+
+/// The hit of a ray that is all but on the ball's surface at `point`. The last step on to the surface is
+/// Newton's; taken in N, it carries the derivatives: where they enter later, rays end farther on.
+template <class N>
+BodyHit<N> hit_at(const Launch<N>& launch, const RayPoint<N>& point, const Ball& ball) {
+  const Vector<N> q = relative_to(ball.centre, point.x);
+  return hit_beyond(launch, point, (ball.radius * ball.radius - q.dot(q)) * reciprocal(2.0 * q.dot(point.p)));
 }
 
 }  // namespace lensplane

@@ -2,6 +2,7 @@
 
 #include "src/geodesic_flight.h"
 
+#include "src/geodesic_crossing.h"
 #include "src/geodesic_entry.h"
 
 namespace lensplane {
@@ -10,8 +11,8 @@ namespace {
 /// Steps reach no farther than this share of the way to the nearest mass, so that none is overlooked.
 constexpr double kFirstStep = 0.5, kLongestStep = 0.9;
 
-/// S to which rays that fall in are followed for the sake of a ball inside a photon sphere: r = 2.005 m.
-constexpr double kDeepestBall = 0.9;
+/// S to which rays that fall in are followed for the sake of a body inside a photon sphere: r = 2.005 m.
+constexpr double kDeepestBody = 0.9;
 
 /// The length of a step follows the distance from the nearest mass, inward in proportion, outward by no more
 /// than kReceding, and what the error of the step before asks for, between these factors.
@@ -41,13 +42,23 @@ bool is_finite(const Vector<N>& a) {
   return is_finite(a.x) && is_finite(a.y) && is_finite(a.z);
 }
 
+/// May a ray at `x` along `d` that is bent by no more than `bend` come as near to a ball as its surface?
+bool may_come_near(const Ball& ball, const Vec3& x, const Vec3& d, double bend) {
+  const Vec3 q = x - ball.centre;
+  const double ahead = -q.dot(d);
+  return ahead > 0.0 && (q + d * ahead).length() <= ball.radius + 2.0 * bend * ahead;
+}
+
 }  // namespace
 
 template <class N>
 GeodesicFlight<N>::GeodesicFlight(const GeodesicScene& scene, const Vector<N>& start,
                                   const Vector<N>& direction)
     : scene_(scene), tolerance_root_(eighth_root(scene.tolerance)), launch_{start, direction, 0.0} {
-  ray_.hits.resize(scene.balls.size());
+  ray_.hits.resize(scene.bodies.balls.size());
+  ray_.disc_hits.resize(scene.bodies.discs.size());
+  for (const Disc& disc : scene.bodies.discs)
+    passages_.push_back({first_side(disc, value_of(start), value_of(direction))});
   launch_.excess = medium_at(scene.masses, start).excess;
   at_ = first_point(scene.masses, launch_);
   h_ = kFirstStep / (std::sqrt(at_.medium.closeness2) * value_of(1.0 + launch_.excess));
@@ -59,11 +70,16 @@ GeodesicFlight<N>::GeodesicFlight(const GeodesicScene& scene, const Vector<N>& s
 }
 
 template <class N>
-bool GeodesicFlight<N>::hides_ball(const PointMass& mass) const {
-  if (at_.medium.sum > kDeepestBall) return false;
-  for (std::size_t i = 0; i < scene_.balls.size(); ++i) {
-    const double gap = (scene_.balls[i].centre - mass.position).length() - scene_.balls[i].radius;
-    if (!ray_.hits[i].hit && gap < kPhotonSphere * mass.m) return true;
+bool GeodesicFlight<N>::hides_body(const PointMass& mass) const {
+  if (at_.medium.sum > kDeepestBody) return false;
+  const auto& [balls, discs] = scene_.bodies;
+  const double photon = kPhotonSphere * mass.m;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const double gap = (balls[i].centre - mass.position).length() - balls[i].radius;
+    if (!ray_.hits[i].hit && gap < photon) return true;
+  }
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    if (!ray_.disc_hits[i].hit && gap_to(discs[i], mass.position) < photon) return true;
   }
   return false;
 }
@@ -76,21 +92,24 @@ typename GeodesicFlight<N>::Heading GeodesicFlight<N>::heading() const {
     const Vec3 r = x - mass.position;
     if (r.dot(p) > 0.0) continue;
     const double photon = kPhotonSphere * mass.m;
-    if (r.dot(r) < photon * photon && !hides_ball(mass)) return Heading::Captured;
+    if (r.dot(r) < photon * photon && !hides_body(mass)) return Heading::Captured;
     heading = Heading::Towards;
   }
   return heading;
 }
 
 template <class N>
-bool GeodesicFlight<N>::may_meet_balls(double bend) const {
-  const Vec3 d = value_of(at_.p).normalized();
-  for (std::size_t i = 0; i < scene_.balls.size(); ++i) {
-    const Ball& ball = scene_.balls[i];
-    const Vec3 q = value_of(at_.x) - ball.centre;
-    const double ahead = -q.dot(d);
-    if (ray_.hits[i].hit || !(ahead > 0.0) || !is_outside(ball, value_of(at_.x))) continue;
-    if ((q + d * ahead).length() <= ball.radius + 2.0 * bend * ahead) return true;
+bool GeodesicFlight<N>::may_meet_bodies(double bend) const {
+  const Vec3 x = value_of(at_.x), d = value_of(at_.p).normalized();
+  const auto& [balls, discs] = scene_.bodies;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    if (!ray_.hits[i].hit && is_outside(balls[i], x) && may_come_near(balls[i], x, d, bend)) return true;
+  }
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const Disc& disc = discs[i];
+    if (ray_.disc_hits[i].hit || passages_[i].side * disc.normal.dot(d) > 2.0 * bend) continue;
+    const Ball round{disc.centre, disc.outer};
+    if (!is_outside(round, x) || may_come_near(round, x, d, bend)) return true;
   }
   return false;
 }
@@ -108,7 +127,7 @@ bool GeodesicFlight<N>::is_far() const {
   }
   // What the first order leaves out is S times as large.
   const double rest = 2.0 * at_.medium.sum * (bend + slope * spread(launch_, at_));
-  return rest < scene_.tolerance && !may_meet_balls(bend);
+  return rest < scene_.tolerance && !may_meet_bodies(bend);
 }
 
 template <class N>
@@ -156,16 +175,24 @@ void GeodesicFlight<N>::end_captured() {
   // On a mass and inside a horizon it has not set out: there the medium has no index.
   const Vec3 heading = value_of(at_.p).normalized();
   const Vec3 last = steps_ > 0 && is_finite(heading) ? heading : value_of(launch_.direction);
-  ray_ = {.captured = true, .direction = {N(last.x), N(last.y), N(last.z)}, .hits = std::move(ray_.hits)};
+  ray_ = {.captured = true,
+          .direction = {N(last.x), N(last.y), N(last.z)},
+          .hits = std::move(ray_.hits),
+          .disc_hits = std::move(ray_.disc_hits)};
 }
 
 template <class N>
-void GeodesicFlight<N>::meet_balls(const RayStep<N>& step) {
-  for (std::size_t i = 0; i < scene_.balls.size(); ++i) {
-    const Ball& ball = scene_.balls[i];
-    if (ray_.hits[i].hit || !may_enter(ball, at_, h_, step)) continue;
-    const auto entry = find_entry(scene_.masses, launch_, at_, h_, step, ball);
-    if (entry) ray_.hits[i] = hit_at(launch_, *entry, ball);
+void GeodesicFlight<N>::meet_bodies(const RayStep<N>& step) {
+  const auto& [balls, discs] = scene_.bodies;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    if (ray_.hits[i].hit || !may_enter(balls[i], at_, h_, step)) continue;
+    const auto entry = find_entry(scene_.masses, launch_, at_, h_, step, balls[i]);
+    if (entry) ray_.hits[i] = hit_at(launch_, *entry, balls[i]);
+  }
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    if (ray_.disc_hits[i].hit) continue;
+    const auto point = find_crossing(scene_.masses, launch_, at_, h_, step, discs[i], passages_[i]);
+    if (point) ray_.disc_hits[i] = hit_at(launch_, *point, discs[i]);
   }
 }
 
@@ -178,7 +205,7 @@ void GeodesicFlight<N>::go_on(const RayStep<N>& step) {
     h_ *= std::min(factor, kCaution);
     return;
   }
-  meet_balls(step);
+  meet_bodies(step);
   const Medium<N>& medium = step.end.medium;
   const double nearest = 1.0 / std::sqrt(medium.closeness2);
   const double change = nearest * std::sqrt(at_.medium.closeness2);

@@ -14,7 +14,7 @@ namespace lensplane {
 /// What rays fly through.
 struct GeodesicScene {
   std::span<const PointMass> masses;  // all > 0
-  std::span<const Ball> balls;
+  Bodies bodies;
   double tolerance;
 };
 
@@ -45,11 +45,11 @@ class GeodesicFlight {
  private:
   enum class Heading { Towards, Away, Captured };  // towards any mass, away from all
   Heading heading() const;
-  bool hides_ball(const PointMass& mass) const;  // not yet met, inside the photon sphere
-  bool may_meet_balls(double bend) const;
+  bool hides_body(const PointMass& mass) const;  // not yet met, inside the photon sphere
+  bool may_meet_bodies(double bend) const;
   bool is_far() const;
   Outlook<N> outlook(const Vector<N>& direction) const;
-  void meet_balls(const RayStep<N>& step);
+  void meet_bodies(const RayStep<N>& step);
   void arrive();
   void end_captured();
 
@@ -60,6 +60,7 @@ class GeodesicFlight {
   double h_ = 0.0;
   int steps_ = 0;
   bool flies_ = true;
+  std::vector<DiscPassage> passages_;  // through the discs
   GeodesicRay<N> ray_;
 };
 

@@ -10,9 +10,10 @@
 #include <cmath>
 #include <limits>
 
+#include "src/bodies.h"
 #include "src/constants.h"
+#include "src/disc.h"
 #include "src/planes_march.h"
-#include "src/surfaces.h"
 
 namespace lensplane {
 namespace {
@@ -163,16 +164,24 @@ FiniteBound finite_bound(const Pass& pass) {
   return {weak + excess * (in_full ? 1.0 : 1.0 - h) + (n - 1.0) * b * pass.growth, (n - 1.0) * b};
 }
 
-/// What the finite distance of spheres changes, as an angle at the camera.
-double surface_bound(const std::vector<Surface>& surfaces, const Pass& pass) {
+/// Metres from a point to a body, 0 inside it.
+double gap_to_body(const Surface& surface, const Vec3& point) {
+  const auto* sphere = std::get_if<Sphere>(&surface);
+  if (!sphere) return gap_to(*disc_of(surface), point);
+  return std::max(0.0, length(sphere->centre - point) - sphere->radius);
+}
+
+/// What the finite distance of bodies changes, as an angle at the camera. Beside a mass that is in the plane
+/// of a disc it is 2 m; inside a ball there is no limit.
+double body_bound(const std::vector<Surface>& bodies, const Pass& pass) {
   double most = 0.0;
-  for (const Surface& surface : surfaces) {
-    const auto* sphere = std::get_if<Sphere>(&surface);
-    if (!sphere) continue;
-    const double to_mass = length(sphere->centre - pass.deflector->position) - sphere->radius;
-    const double to_camera = length(sphere->centre) - sphere->radius;
-    if (!(to_mass > 0.0 && to_camera > 0.0)) return kInfinity;
-    most = std::max(most, 2.0 * pass.deflector->m * std::min(1.0, pass.most_b / to_mass) / to_camera);
+  for (const Surface& body : bodies) {
+    const double to_mass = gap_to_body(body, pass.deflector->position);
+    const double to_camera = gap_to_body(body, Vec3(0));
+    const bool inside = std::holds_alternative<Sphere>(body) && !(to_mass > 0.0);
+    if (inside || !(to_camera > 0.0)) return kInfinity;
+    const double share = to_mass > pass.most_b ? pass.most_b / to_mass : 1.0;
+    most = std::max(most, 2.0 * pass.deflector->m * share / to_camera);
   }
   return most;
 }
@@ -190,20 +199,20 @@ double pixels_per_radian(const Camera& camera, bool plates, const Passes& passes
 /// The surfaces of the scene, and what of them matters here.
 struct Stage {
   const Camera& camera;
-  std::vector<Surface> surfaces;  // camera axes
-  bool plates = false;
-  double per_metre = 0.0;  // of an error across the ray at its end: 1/distance of the nearest sphere
+  std::vector<Surface> bodies;  // camera axes
+  bool plates = false;          // any picture on a plane that faces the camera
+  double per_metre = 0.0;       // of an error across the ray at its end: 1/distance of the nearest body
 };
 
 Stage stage_of(const Scene& scene) {
   Stage stage{scene.camera, {}};
   for (const Surface& surface : scene.surfaces) {
-    stage.surfaces.push_back(camera_from_world(scene.camera, surface));
-    stage.plates = stage.plates || std::holds_alternative<Plate>(surface);
-    if (const auto* sphere = std::get_if<Sphere>(&stage.surfaces.back())) {
-      const double distance = length(sphere->centre) - sphere->radius;
-      stage.per_metre = std::max(stage.per_metre, distance > 0.0 ? 1.0 / distance : kInfinity);
-    }
+    stage.plates =
+        stage.plates || std::holds_alternative<Plate>(surface) || std::holds_alternative<Card>(surface);
+    if (!is_body(surface)) continue;
+    stage.bodies.push_back(camera_from_world(scene.camera, surface));
+    const double distance = gap_to_body(stage.bodies.back(), Vec3(0));
+    stage.per_metre = std::max(stage.per_metre, distance > 0.0 ? 1.0 / distance : kInfinity);
   }
   return stage;
 }
@@ -237,7 +246,7 @@ TileBound bound_tile(const Stage& stage, const Deflectors& everything, const Bun
       raise(lens.weak_px, weak);
       raise(lens.second_order_px, second_order);
       raise(lens.finite_px, px * (growth.per_angle * finite.angle + growth.per_metre * finite.shift +
-                                  surface_bound(stage.surfaces, pass)));
+                                  body_bound(stage.bodies, pass)));
     }
     growth = growth.before(*plane);
   }

@@ -56,7 +56,26 @@ struct Sphere {
   Basis axes;         // world from body
 };
 
-using Surface = std::variant<Plate, LatLong, Sphere>;
+/// A flat annulus, seen from both sides; light goes on through it, so that it may be met more than once.
+/// s is 0 on its inner edge and 1 on its outer one; t = .5 lies along the ring's +z and grows towards +x, as
+/// longitudes do; its seam, where t jumps from 1 to 0, lies along -z.
+struct Ring {
+  Vec3 centre{0};    // metres
+  Basis axes;        // world from ring; +y is its normal
+  double inner = 0;  // metres, >= 0
+  double outer = 0;  // metres, > inner
+  int crossing = 0;  // which of a ray's crossings of the annulus is seen, from 0
+};
+
+/// A plate at a finite distance: the plane z = -distance in camera axes, seen from both sides, as a
+/// photograph on glass is. (s, t) as of Plate: without lenses it fills the camera's frame. The plane goes on
+/// beyond the picture's edges; a panoramic camera sees it in front of it only.
+struct Card {
+  double distance = 0;  // metres along the camera's axis, > 0
+  int crossing = 0;     // which of a ray's crossings of the plane is seen, from 0; odd ones from behind
+};
+
+using Surface = std::variant<Plate, LatLong, Sphere, Ring, Card>;
 
 /// Everything that determines where light goes at one instant.
 struct Scene {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "src/bodies.h"
 #include "src/constants.h"
-#include "src/finite_shift.h"
 
 namespace lensplane {
 namespace {
@@ -67,9 +67,8 @@ void see_at_infinity(const Sight& sight, const Surface& surface, const LineBatch
 
 }  // namespace
 
-bool Sight::any_sphere() const {
-  return std::any_of(surfaces.begin(), surfaces.end(),
-                     [](const Surface& surface) { return std::holds_alternative<Sphere>(surface); });
+bool Sight::any_body() const {
+  return std::any_of(surfaces.begin(), surfaces.end(), is_body);
 }
 
 namespace {
@@ -79,6 +78,7 @@ void clear(SurfaceBatch& surface) {
   std::fill_n(surface.t, kBatchSize, 0.0);
   std::fill_n(surface.distance, kBatchSize, 0.0);
   surface.outcome.fill(Outcome::Missed);
+  surface.passages.fill({});
   if (surface.passes) *surface.passes = {};
 }
 
@@ -94,9 +94,9 @@ TraceBatch make_batch(const Sight& sight) {
   return batch;
 }
 
-void clear_spheres(const Sight& sight, TraceBatch& batch) {
+void clear_bodies(const Sight& sight, TraceBatch& batch) {
   for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
-    if (std::holds_alternative<Sphere>(sight.surfaces[k])) clear(batch.surfaces[k]);
+    if (is_body(sight.surfaces[k])) clear(batch.surfaces[k]);
   }
 }
 
@@ -133,33 +133,68 @@ void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k) {
   }
 }
 
+namespace {
+
+/// Writes that ray `i` meets a body `way` metres from the start of `stretch`.
 template <class Number>
-void see_spheres(const Sight& sight, const Ends& ends, int bends, Stretch stretch, LineBatch<Number>& rays,
-                 TraceBatch& batch) {
+void set_on_body(const Sight& sight, std::size_t k, const RaySegment<Number>& stretch, const Number& way,
+                 int i, LineBatch<Number>& rays, TraceBatch& batch) {
+  const FilmPosition film{batch.x[i], batch.y[i]};
+  const auto first = direction_from_film<Number>(sight.camera, film);
+  const Vector<Number> point = stretch.start + stretch.direction * way;
+  auto hit = meet_body_at(sight.surfaces[k], sight.camera, film, first, point);
+  hit.direction = value_of(stretch.direction);
+  hit.bends = stretch.bends;
+  if (hit.outcome == Outcome::Hit) hit.distance = rays.path.v[i] + value_of(way);
+  set(sight, hit, i, batch.surfaces[k]);
+  if (sight.effects.delay) rays.irregular[i] = 1.0;
+}
+
+template <class Number>
+void see_sphere(const Sight& sight, std::size_t k, const Ends& ends, int bends, const Deflectors* finite,
+                LineBatch<Number>& rays, TraceBatch& batch) {
+  const auto& sphere = std::get<Sphere>(sight.surfaces[k]);
   alignas(64) BatchArray entry;
-  const bool is_shifted = sight.finite && stretch == Stretch::Straight;
+  VectorLane<Number> start = rays.start, direction = rays.direction;
+  for (int i = 0; finite && i < kBatchSize; ++i) {
+    const RaySegment<Number> stretch{start.get(i), direction.get(i), Number(ends.at[i]), bends};
+    const RaySegment<Number> near = shifted_to_ball(*finite, stretch, sphere);
+    start.set(i, near.start);
+    direction.set(i, near.direction);
+  }
+  enter_sphere(sphere, start, direction, ends, entry);
+  const SurfaceBatch& surface = batch.surfaces[k];
+  for (int i = 0; i < kBatchSize; ++i) {
+    if (!(entry[i] < kInfinity) || surface.outcome[i] == Outcome::Hit || rays.captured[i] != 0.0) continue;
+    const RaySegment<Number> stretch{start.get(i), direction.get(i), Number(ends.at[i]), bends};
+    const Number way = sphere_entry(stretch.start, stretch.direction, sphere.centre, sphere.radius);
+    set_on_body(sight, k, stretch, way, i, rays, batch);
+  }
+}
+
+template <class Number>
+void see_disc(const Sight& sight, std::size_t k, const Disc& disc, const Ends& ends, int bends,
+              const Deflectors* finite, LineBatch<Number>& rays, TraceBatch& batch) {
+  for (int i = 0; i < kBatchSize; ++i) {
+    DiscPassage& passage = batch.surfaces[k].passages[i];
+    if (passage.crossings > disc.crossing || rays.captured[i] != 0.0) continue;
+    const RaySegment<Number> stretch{rays.start.get(i), rays.direction.get(i), Number(ends.at[i]), bends};
+    const auto crossing = meet_disc(disc, stretch, finite, passage);
+    if (crossing) set_on_body(sight, k, crossing->stretch, crossing->way, i, rays, batch);
+  }
+}
+
+}  // namespace
+
+template <class Number>
+void see_bodies(const Sight& sight, const Ends& ends, int bends, Stretch stretch, LineBatch<Number>& rays,
+                TraceBatch& batch) {
+  const Deflectors* finite = stretch == Stretch::Straight ? sight.finite : nullptr;
   for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
-    const auto* sphere = std::get_if<Sphere>(&sight.surfaces[k]);
-    if (!sphere) continue;
-    VectorLane<Number> start = rays.start, direction = rays.direction;
-    for (int i = 0; is_shifted && i < kBatchSize; ++i) {
-      const RaySegment<Number> stretch{start.get(i), direction.get(i), Number(ends.at[i]), bends};
-      const RaySegment<Number> near = shifted(*sight.finite, stretch, *sphere);
-      start.set(i, near.start);
-      direction.set(i, near.direction);
-    }
-    enter_sphere(*sphere, start, direction, ends, entry);
-    SurfaceBatch& surface = batch.surfaces[k];
-    for (int i = 0; i < kBatchSize; ++i) {
-      if (!(entry[i] < kInfinity) || surface.outcome[i] == Outcome::Hit || rays.captured[i] != 0.0) continue;
-      const Vector<Number> first = direction_from_film<Number>(sight.camera, {batch.x[i], batch.y[i]});
-      const Number way = sphere_entry(start.get(i), direction.get(i), sphere->centre, sphere->radius);
-      auto hit = meet_sphere_at(*sphere, first, start.get(i) + direction.get(i) * way);
-      hit.distance = rays.path.v[i] + entry[i];
-      hit.direction = value_of(direction.get(i));
-      hit.bends = bends;
-      set(sight, hit, i, surface);
-      if (sight.effects.delay) rays.irregular[i] = 1.0;
+    if (std::holds_alternative<Sphere>(sight.surfaces[k])) {
+      see_sphere(sight, k, ends, bends, finite, rays, batch);
+    } else if (const auto disc = disc_of(sight.surfaces[k])) {
+      see_disc(sight, k, *disc, ends, bends, finite, rays, batch);
     }
   }
 }
@@ -168,7 +203,7 @@ template <class Number>
 void see_infinity(const Sight& sight, const LineBatch<Number>& rays, int bends, TraceBatch& batch) {
   for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
     SurfaceBatch& surface = batch.surfaces[k];
-    if (!std::holds_alternative<Sphere>(sight.surfaces[k])) {
+    if (!is_body(sight.surfaces[k])) {
       see_at_infinity(sight, sight.surfaces[k], rays, bends, batch, surface);
       continue;
     }
@@ -187,8 +222,8 @@ void see_infinity(const Sight& sight, const LineBatch<Number>& rays, int bends, 
 
 template void set(const Sight&, const SurfaceHit<double>&, int, SurfaceBatch&);
 template void set(const Sight&, const SurfaceHit<Dual>&, int, SurfaceBatch&);
-template void see_spheres(const Sight&, const Ends&, int, Stretch, LineBatch<double>&, TraceBatch&);
-template void see_spheres(const Sight&, const Ends&, int, Stretch, LineBatch<Dual>&, TraceBatch&);
+template void see_bodies(const Sight&, const Ends&, int, Stretch, LineBatch<double>&, TraceBatch&);
+template void see_bodies(const Sight&, const Ends&, int, Stretch, LineBatch<Dual>&, TraceBatch&);
 template void see_infinity(const Sight&, const LineBatch<double>&, int, TraceBatch&);
 template void see_infinity(const Sight&, const LineBatch<Dual>&, int, TraceBatch&);
 

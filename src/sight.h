@@ -26,14 +26,14 @@ struct Sight {
   double slope = 0;                    // slope_per_pixel() of a perspective camera
   const Deflectors* finite = nullptr;  // the masses, when their finite distance from surfaces counts
 
-  bool any_sphere() const;
+  bool any_body() const;
 };
 
 /// A batch with room for what is asked; nothing is met yet.
 TraceBatch make_batch(const Sight& sight);
 
-/// Sets the spheres to nothing met: what lies at infinity is written for every ray.
-void clear_spheres(const Sight& sight, TraceBatch& batch);
+/// Sets the bodies to nothing met: what lies at infinity is written for every ray.
+void clear_bodies(const Sight& sight, TraceBatch& batch);
 
 /// Writes one ray's result on one surface.
 template <class Number>
@@ -45,11 +45,11 @@ void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k);
 /// A stretch of a ray between planes, or a chord of its way round the masses of one.
 enum class Stretch { Straight, Chord };
 
-/// Lets the rays meet the spheres on their present stretch. Rays whose arrival time is asked for are marked
+/// Lets the rays meet the bodies on their present stretch. Rays whose arrival time is asked for are marked
 /// irregular where they hit: a batch does not keep the masses that they passed.
 template <class Number>
-void see_spheres(const Sight& sight, const Ends& ends, int bends, Stretch stretch, LineBatch<Number>& rays,
-                 TraceBatch& batch);
+void see_bodies(const Sight& sight, const Ends& ends, int bends, Stretch stretch, LineBatch<Number>& rays,
+                TraceBatch& batch);
 
 /// Lets the rays meet what lies at infinity. `bends`: how many planes bent them.
 template <class Number>

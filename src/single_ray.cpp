@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "src/bodies.h"
 #include "src/geodesic_batch.h"
 #include "src/march.h"
 #include "src/planes_march.h"
@@ -12,15 +13,6 @@ namespace lensplane {
 namespace {
 
 template <class Number>
-SurfaceHit<Number> hit_of_ball(const Sphere& sphere, const Vector<Number>& first,
-                               const BallHit<Number>& ball) {
-  SurfaceHit<Number> hit = meet_sphere_at(sphere, first, ball.point);
-  hit.distance = value_of(ball.length);
-  hit.direction = ball.direction;
-  hit.delay = value_of(ball.delay);
-  return hit;
-}
-
 /// What a ray that meets nothing has: its direction as far as it goes.
 template <class Number>
 SurfaceHit<Number> no_hit(const GeodesicRay<Number>& ray) {
@@ -30,10 +22,22 @@ SurfaceHit<Number> no_hit(const GeodesicRay<Number>& ray) {
   return hit;
 }
 
-/// The masses and balls of the scene as curved rays meet them.
+template <class Number>
+SurfaceHit<Number> hit_of_body(const Surface& surface, const Camera& camera, FilmPosition film,
+                               const Vector<Number>& first, const BodyHit<Number>& body) {
+  SurfaceHit<Number> hit = meet_body_at(surface, camera, film, first, body.point);
+  hit.direction = body.direction;
+  if (hit.outcome != Outcome::Hit) return hit;
+  hit.distance = value_of(body.length);
+  hit.delay = value_of(body.delay);
+  return hit;
+}
+
+/// The masses and bodies of the scene as curved rays meet them.
 struct CurvedScene {
   std::vector<PointMass> masses;
   std::vector<Ball> balls;
+  std::vector<Disc> discs;
 };
 
 CurvedScene curved_scene(const Sight& sight, const Plan& plan) {
@@ -44,6 +48,8 @@ CurvedScene curved_scene(const Sight& sight, const Plan& plan) {
   for (const Surface& surface : sight.surfaces) {
     if (const auto* sphere = std::get_if<Sphere>(&surface)) {
       scene.balls.push_back({sphere->centre, sphere->radius});
+    } else if (const auto disc = disc_of(surface)) {
+      scene.discs.push_back(*disc);
     }
   }
   return scene;
@@ -54,10 +60,11 @@ std::vector<SurfaceHit<Number>> hits_of(const Sight& sight, FilmPosition film, c
                                         const GeodesicRay<Number>& ray) {
   std::vector<SurfaceHit<Number>> hits;
   auto ball = ray.hits.begin();
+  auto disc = ray.disc_hits.begin();
   for (const Surface& surface : sight.surfaces) {
-    if (const auto* sphere = std::get_if<Sphere>(&surface)) {
-      hits.push_back(ball->hit ? hit_of_ball(*sphere, first, *ball) : no_hit(ray));
-      ++ball;
+    if (is_body(surface)) {
+      const BodyHit<Number>& body = std::holds_alternative<Sphere>(surface) ? *ball++ : *disc++;
+      hits.push_back(body.hit ? hit_of_body(surface, sight.camera, film, first, body) : no_hit(ray));
     } else if (ray.captured) {
       hits.push_back(no_hit(ray));
     } else {
@@ -86,8 +93,8 @@ std::vector<std::vector<SurfaceHit<Number>>> trace_curved_rays(const Sight& sigh
   std::vector<Vector<Number>> first;
   for (const FilmPosition film : films) first.push_back(direction_from_film<Number>(sight.camera, film));
   const Vector<Number> camera(Number(0.0), Number(0.0), Number(0.0));
-  const auto rays =
-      trace_geodesics<Number>(scene.masses, camera, first, plan.geodesic_tolerance, scene.balls);
+  const auto rays = trace_geodesics<Number>(scene.masses, camera, first, plan.geodesic_tolerance,
+                                            {scene.balls, scene.discs});
   std::vector<std::vector<SurfaceHit<Number>>> hits;
   for (std::size_t i = 0; i < films.size(); ++i) {
     hits.push_back(hits_of(sight, films[i], first[i], rays[i]));

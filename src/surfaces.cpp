@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include "src/arrival_time.h"
+#include "src/bodies.h"
 #include "src/constants.h"
-#include "src/finite_shift.h"
 
 namespace lensplane {
 namespace {
@@ -50,73 +50,7 @@ double magnification_of(double seen, double there) {
   return std::clamp(mu, -kLargestMagnification, kLargestMagnification);
 }
 
-/// The segment number `i` of the path, as finite distances move it near the sphere. A chord, between planes'
-/// foot points, joins its neighbours.
-template <class Number>
-RaySegment<Number> shifted_segment(const Deflectors& finite, const RayPath<Number>& path, std::size_t i,
-                                   const Sphere& sphere) {
-  if (i % 2 == 0) return shifted(finite, path.segments[i], sphere);
-  return chord_between(finite, path.segments[i - 1], path.segments[i + 1]);
-}
-
-/// Shapiro delay of the masses that the light from a point `travelled` metres along the path, on its segment
-/// number `i`, does not pass.
-template <class Number>
-double delay_by_masses_ahead(const Deflectors& deflectors, const RayPath<Number>& path, std::size_t i,
-                             double travelled) {
-  const Vec3 start = value_of(path.segments[i].start), direction = value_of(path.segments[i].direction);
-  double delay = 0.0;
-  for (const DeflectorPlane& plane : deflectors.planes) {
-    for (const Deflector& deflector : plane.deflectors) {
-      const bool passed = std::any_of(path.passages.begin(), path.passages.end(), [&](const auto& p) {
-        return p.lens == deflector.lens && value_of(p.path) <= travelled;
-      });
-      if (passed) continue;
-      const Vec3 to_mass = deflector.position - start;
-      const double along = to_mass.dot(direction);
-      const double z1 = value_of(path.lengths[i]) + along;
-      delay += 2.0 * deflector.m *
-               shapiro_logarithm_between(z1, travelled - z1, length(to_mass - direction * along));
-    }
-  }
-  return delay;
-}
-
-template <class Number>
-SurfaceHit<Number> meet_sphere(const Sphere& sphere, const RayPath<Number>& path, const Deflectors* finite) {
-  for (std::size_t i = 0; i < path.segments.size(); ++i) {
-    const RaySegment<Number> segment = finite ? shifted_segment(*finite, path, i, sphere) : path.segments[i];
-    const Number entry = sphere_entry(segment.start, segment.direction, sphere.centre, sphere.radius);
-    if (!(value_of(entry) <= value_of(segment.length)) || !(value_of(entry) < kInfinity)) continue;
-    const Vector<Number> point = segment.start + segment.direction * entry;
-    SurfaceHit<Number> hit = meet_sphere_at(sphere, path.segments.front().direction, point);
-    hit.distance = value_of(path.lengths[i]) + value_of(entry);
-    hit.direction = value_of(segment.direction);
-    hit.bends = segment.bends;
-    hit.delay = (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance);
-    if (finite) hit.delay += delay_by_masses_ahead(*finite, path, i, hit.distance);
-    return hit;
-  }
-  SurfaceHit<Number> miss;
-  miss.outcome = path.captured ? Outcome::Captured : Outcome::Missed;
-  miss.direction = value_of(path.segments.back().direction);
-  miss.bends = path.bends;
-  return miss;
-}
-
 }  // namespace
-
-template <class Number>
-Number sphere_entry(const Vector<Number>& start, const Vector<Number>& direction, const Vec3& centre,
-                    double radius) {
-  const Vector<Number> to_centre = constant<Number>(centre) - start;
-  const Number along = to_centre.dot(direction);
-  const Vector<Number> across = to_centre - direction * along;
-  const Number half_chord2 = Number(radius * radius) - across.dot(across);
-  if (!(value_of(half_chord2) >= 0.0)) return kInfinity;
-  const Number near = along - sqrt(half_chord2);
-  return value_of(near) >= -kSurfaceTolerance * radius ? near : Number(kInfinity);
-}
 
 template <class Number>
 TexturePoint<Number> st_from_sphere_normal(const Vector<Number>& n) {
@@ -130,6 +64,19 @@ Vec3 sphere_normal_from_st(TextureCoordinates st) {
   const double latitude = (st.t - 0.5) * kPi;
   return {std::sin(longitude) * std::cos(latitude), std::sin(latitude),
           std::cos(longitude) * std::cos(latitude)};
+}
+
+template <class Number>
+TexturePoint<Number> st_from_ring_point(const Ring& ring, const Vector<Number>& p) {
+  const Number radius = length(Vector<Number>(p.x, p.z, Number(0.0)));
+  return {(radius - Number(ring.inner)) * (1.0 / (ring.outer - ring.inner)),
+          0.5 + angle(p.x, p.z) * (1.0 / (2.0 * kPi))};
+}
+
+Vec3 ring_point_from_st(const Ring& ring, TextureCoordinates st) {
+  const double radius = ring.inner + st.s * (ring.outer - ring.inner);
+  const double angle = (st.t - 0.5) * 2.0 * kPi;
+  return ring.centre + ring.axes.parent_from_local({radius * std::sin(angle), 0.0, radius * std::cos(angle)});
 }
 
 // The sky is a sphere seen from inside: its longitude 0 lies along -z, and east is to the right there, too.
@@ -185,22 +132,9 @@ SurfaceHit<Number> meet_sky(const Camera& camera, const Vector<Number>& first, c
 }
 
 template <class Number>
-SurfaceHit<Number> meet_sphere_at(const Sphere& sphere, const Vector<Number>& first,
-                                  const Vector<Number>& point) {
-  SurfaceHit<Number> hit;
-  hit.outcome = Outcome::Hit;
-  const Vector<Number> normal = point - constant<Number>(sphere.centre);
-  hit.st = st_from_sphere_normal(local_from_parent(sphere.axes, normal));
-  if constexpr (std::is_same_v<Number, Dual>) {
-    hit.magnification = magnification_of_point(first, point, value_of(normal));
-  }
-  return hit;
-}
-
-template <class Number>
 SurfaceHit<Number> meet(const Surface& surface, const Camera& camera, FilmPosition film,
                         const RayPath<Number>& path, const Deflectors* finite) {
-  if (const auto* sphere = std::get_if<Sphere>(&surface)) return meet_sphere(*sphere, path, finite);
+  if (is_body(surface)) return meet_body(surface, camera, film, path, finite);
   const Vector<Number>& first = path.segments.front().direction;
   const RaySegment<Number>& end = path.segments.back();
   SurfaceHit<Number> hit;
@@ -219,24 +153,26 @@ SurfaceHit<Number> meet(const Surface& surface, const Camera& camera, FilmPositi
 }
 
 Surface camera_from_world(const Camera& camera, const Surface& surface) {
-  const auto* sphere = std::get_if<Sphere>(&surface);
-  if (!sphere) return surface;
-  return Sphere{camera.axes.local_from_parent(sphere->centre - camera.position), sphere->radius,
-                local_from_parent(camera.axes, sphere->axes)};
+  const auto placed = [&camera](auto body) {
+    body.centre = camera.axes.local_from_parent(body.centre - camera.position);
+    body.axes = local_from_parent(camera.axes, body.axes);
+    return Surface(body);
+  };
+  if (const auto* sphere = std::get_if<Sphere>(&surface)) return placed(*sphere);
+  if (const auto* ring = std::get_if<Ring>(&surface)) return placed(*ring);
+  return surface;  // in camera axes anyway
 }
 
-template double sphere_entry(const Vec3&, const Vec3&, const Vec3&, double);
-template Dual sphere_entry(const DualVec3&, const DualVec3&, const Vec3&, double);
 template TexturePoint<double> st_from_sky_direction(const Vec3&);
 template TexturePoint<Dual> st_from_sky_direction(const DualVec3&);
 template TexturePoint<double> st_from_sphere_normal(const Vec3&);
 template TexturePoint<Dual> st_from_sphere_normal(const DualVec3&);
+template TexturePoint<double> st_from_ring_point(const Ring&, const Vec3&);
+template TexturePoint<Dual> st_from_ring_point(const Ring&, const DualVec3&);
 template SurfaceHit<double> meet_plate(const Camera&, FilmPosition, const Vec3&, const Vec3&);
 template SurfaceHit<Dual> meet_plate(const Camera&, FilmPosition, const DualVec3&, const DualVec3&);
 template SurfaceHit<double> meet_sky(const Camera&, const Vec3&, const Vec3&);
 template SurfaceHit<Dual> meet_sky(const Camera&, const DualVec3&, const DualVec3&);
-template SurfaceHit<double> meet_sphere_at(const Sphere&, const Vec3&, const Vec3&);
-template SurfaceHit<Dual> meet_sphere_at(const Sphere&, const DualVec3&, const DualVec3&);
 template SurfaceHit<double> meet(const Surface&, const Camera&, FilmPosition, const RayPath<double>&,
                                  const Deflectors*);
 template SurfaceHit<Dual> meet(const Surface&, const Camera&, FilmPosition, const RayPath<Dual>&,

@@ -3,8 +3,9 @@
 // Where rays meet surfaces, which texture coordinates (s, t) that is, and what comes with it.
 //
 // A numerical outcome is a value: a ray that meets nothing, or ends in a mass, has an Outcome, never a NaN.
-// Surfaces and rays are in camera axes. Templates over the number type are instantiated for `double` and for
-// `Dual`; what needs derivatives (Jacobian, magnification) is there with `Dual` only.
+// Here is what lies at infinity; bodies.h has what stands nearer. Surfaces and rays are in camera axes.
+// Templates over the number type are instantiated for `double` and for `Dual`; what needs derivatives
+// (Jacobian, magnification) is there with `Dual` only.
 
 #pragma once
 
@@ -18,7 +19,7 @@ namespace lensplane {
 
 enum class Outcome : std::uint8_t {
   Hit,       // (s, t) says where
-  Missed,    // the ray goes past the surface
+  Missed,    // the ray goes past the surface, or meets it less often than is asked for
   Behind,    // the ray runs where a plate has no picture: sideways or away from it
   Captured,  // the ray ended in a mass before it met the surface
   Unseen,    // no ray: the film position lies outside a fisheye's circle
@@ -35,7 +36,7 @@ template <class Number>
 struct SurfaceHit {
   Outcome outcome = Outcome::Missed;
   TexturePoint<Number> st{Number(0.0), Number(0.0)};
-  double distance = 0;       // metres along the bent ray; infinite for plates and skies
+  double distance = 0;       // metres along the bent ray; infinite for plates at infinity and skies
   double magnification = 0;  // see below; 0 where not computed
   double delay = 0;          // metres of light travel, arrival_time.h
   Vec3 direction{0};         // the ray's, after its last bend before the surface
@@ -52,11 +53,6 @@ inline constexpr double kPlateLimit = 1e9;
 /// Magnifications are cut off here: on a critical curve there is no limit.
 inline constexpr double kLargestMagnification = 1e30;
 
-/// Distance at which a ray (unit `direction`) enters the ball; infinite when it does not.
-template <class Number>
-Number sphere_entry(const Vector<Number>& start, const Vector<Number>& direction, const Vec3& centre,
-                    double radius);
-
 /// Texture coordinates of a lat-long sky for a direction in the world (any length).
 template <class Number>
 TexturePoint<Number> st_from_sky_direction(const Vector<Number>& direction);
@@ -71,12 +67,21 @@ TexturePoint<Number> st_from_sphere_normal(const Vector<Number>& normal);
 /// Unit normal in the sphere's own axes. Inverse of st_from_sphere_normal.
 Vec3 sphere_normal_from_st(TextureCoordinates st);
 
+/// Texture coordinates of a ring for a point of its plane in its own axes, relative to its centre. At the
+/// centre itself t is .5 and has no derivatives.
+template <class Number>
+TexturePoint<Number> st_from_ring_point(const Ring& ring, const Vector<Number>& point);
+
+/// A point of the ring in the axes in which the ring is given, metres. Inverse of st_from_ring_point.
+Vec3 ring_point_from_st(const Ring& ring, TextureCoordinates st);
+
 /// Solid angle in which the camera sees a piece of sky over the solid angle of that piece, negative when it
 /// is mirrored. `first` is the direction at the camera, `last` where the light comes from.
 double magnification_at_infinity(const DualVec3& first, const DualVec3& last);
 
 /// The same for a piece of a body at `point`, against its solid angle at the camera without lensing; negative
-/// when the picture on the body (whose normal there is `normal`) appears mirrored.
+/// when the picture on the body (whose normal there is `normal`) appears mirrored. Of what is seen from both
+/// sides that is against how the camera would see it: its normal is taken towards the camera.
 double magnification_of_point(const DualVec3& first, const DualVec3& point, const Vec3& normal);
 
 /// What a ray that left through `film` along `first` and comes from infinity along `last` meets there.
@@ -86,12 +91,7 @@ SurfaceHit<Number> meet_plate(const Camera& camera, FilmPosition film, const Vec
 template <class Number>
 SurfaceHit<Number> meet_sky(const Camera& camera, const Vector<Number>& first, const Vector<Number>& last);
 
-/// The point `point` of a ball as a ray sees it that left along `first`: (s, t) and magnification.
-template <class Number>
-SurfaceHit<Number> meet_sphere_at(const Sphere& sphere, const Vector<Number>& first,
-                                  const Vector<Number>& point);
-
-/// What the path of a ray that left the camera through `film` meets on `surface` (sphere: first entry).
+/// What the path of a ray that left the camera through `film` meets on `surface`.
 /// `finite` holds the masses when their finite distances count, otherwise null.
 template <class Number>
 SurfaceHit<Number> meet(const Surface& surface, const Camera& camera, FilmPosition film,

@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 
+#include "src/disc.h"
 #include "src/line_batch.h"
 #include "src/surfaces.h"
 
@@ -25,9 +26,10 @@ struct PassBatch {
 /// What a batch of rays meets on one surface; see SurfaceHit.
 struct SurfaceBatch {
   alignas(64) BatchArray s, t,
-      distance;  // distance: metres along the bent ray, infinite for plates and skies
+      distance;  // distance: metres along the bent ray, infinite for skies and plates at infinity
   std::array<Outcome, kBatchSize> outcome;
-  std::unique_ptr<PassBatch> passes;  // null when no effect is called for
+  std::array<DiscPassage, kBatchSize> passages;  // of rings and cards: how far the rays have come
+  std::unique_ptr<PassBatch> passes;             // null when no effect is called for
 };
 
 /// Where every straight stretch ends, in metres from its start.

@@ -83,26 +83,26 @@ bool march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
                         BatchArray& irregular) {
   LineBatch<Number> rays, before;
   Ends ends, chord_ends;
-  const bool spheres = sight.any_sphere();
-  const PlanesWork work{reach, spheres || sight.effects.delay, sight.effects.delay};
+  const bool bodies = sight.any_body();
+  const PlanesWork work{reach, bodies || sight.effects.delay, sight.effects.delay};
   start_lines(sight.camera, sight.slope, batch.x, batch.y, work.path, rays);
   if (deflectors.blind) std::fill_n(rays.captured, kBatchSize, 1.0);
   const std::size_t count = deflectors.blind ? 0 : deflectors.outward;
   for (std::size_t k = 0; k < count; ++k) {
-    if (spheres) {
+    if (bodies) {
       end_nearest(deflectors.planes[k].centre, deflectors.finite_distance, rays, ends);
-      see_spheres(sight, ends, static_cast<int>(k), Stretch::Straight, rays, batch);
+      see_bodies(sight, ends, static_cast<int>(k), Stretch::Straight, rays, batch);
     }
-    if (spheres) before = rays;
+    if (bodies) before = rays;
     pass_plane(deflectors, k, work, rays);
-    if (spheres) {
+    if (bodies) {
       LineBatch<Number> chord = chords_between(sight, static_cast<int>(k), deflectors.planes[k].centre,
                                                before, ends, rays, chord_ends);
-      see_spheres(sight, chord_ends, static_cast<int>(k), Stretch::Chord, chord, batch);
+      see_bodies(sight, chord_ends, static_cast<int>(k), Stretch::Chord, chord, batch);
       std::copy_n(chord.irregular, kBatchSize, rays.irregular);
     }
   }
-  if (spheres) see_spheres(sight, no_end(), static_cast<int>(count), Stretch::Straight, rays, batch);
+  if (bodies) see_bodies(sight, no_end(), static_cast<int>(count), Stretch::Straight, rays, batch);
   see_infinity(sight, rays, static_cast<int>(count), batch);
   std::copy_n(rays.irregular, kBatchSize, irregular);
   // A batch does not keep how far a captured ray came.
@@ -131,7 +131,7 @@ TraceBatch Tracer::make_batch() const {
 
 void Tracer::trace(TraceBatch& batch) const {
   assert(batch.surfaces.size() == surfaces_.size());
-  clear_spheres(sight(), batch);
+  clear_bodies(sight(), batch);
   const bool flat = camera_.projection == Projection::Perspective;
   const bool paper = plan_.method == Method::Kishi || plan_.method == Method::ShinotsukaMakino;
   if (plan_.method == Method::Planes) {
@@ -189,20 +189,20 @@ void Tracer::trace_by_paper(TraceBatch& batch) const {
   LineBatch<double> rays;
   Ends ends;
   const Sight view = sight();
-  const bool spheres = view.any_sphere();
+  const bool bodies = view.any_body();
   start_lines(camera_, slope_, batch.x, batch.y, true, rays);
   int bends = 0;
   for (const LensPlane& plane : plan_.planes) {
     if (!(plane.distance > 0.0)) continue;
-    if (spheres) {
+    if (bodies) {
       end_at_plane(plane.distance, rays, ends);
-      see_spheres(view, ends, bends, Stretch::Straight, rays, batch);
+      see_bodies(view, ends, bends, Stretch::Straight, rays, batch);
     }
     advance_rays(plane.distance, rays);
     for (const Source& source : plane.sources) bend_rays(source, rays);
     ++bends;
   }
-  if (spheres) see_spheres(view, no_end(), bends, Stretch::Straight, rays, batch);
+  if (bodies) see_bodies(view, no_end(), bends, Stretch::Straight, rays, batch);
   see_infinity(view, rays, bends, batch);
   for (int i = 0; i < kBatchSize; ++i) {
     if (rays.irregular[i] != 0.0) trace_singly(0, i, batch);

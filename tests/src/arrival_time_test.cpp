@@ -61,7 +61,7 @@ BallErrors errors_on(const Sphere& ball, const std::vector<Lens>& lenses, const 
   const Vec3 direction = towards.normalized();
   const Ball same{ball.centre, ball.radius};
   const auto masses = masses_of(lenses);
-  const auto curved = trace_geodesic<double>(masses, Vec3(0), direction, 1e-16, {&same, 1}).hits[0];
+  const auto curved = trace_geodesic<double>(masses, Vec3(0), direction, 1e-16, {{&same, 1}}).hits[0];
   const Deflectors deflectors = round_deflectors(lenses, Law::Exact);
   const auto ours = meet(ball, Camera{}, {0, 0}, march_planes<double>(deflectors, direction), &deflectors);
   EXPECT_TRUE(curved.hit);

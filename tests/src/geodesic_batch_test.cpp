@@ -47,10 +47,10 @@ void expect_batch_is_ray_by_ray(const std::vector<PointMass>& masses) {
   const auto all = directions<N>(300);
   for (const std::size_t count : {std::size_t{0}, std::size_t{1}, all.size()}) {
     const std::span some(all.data(), count);
-    const auto rays = trace_geodesics<N>(masses, start, some, 1e-9, balls);
+    const auto rays = trace_geodesics<N>(masses, start, some, 1e-9, {balls});
     ASSERT_EQ(rays.size(), count);
     for (std::size_t i = 0; i < count; ++i) {
-      const auto alone = trace_geodesic<N>(masses, start, some[i], 1e-9, balls);
+      const auto alone = trace_geodesic<N>(masses, start, some[i], 1e-9, {balls});
       EXPECT_EQ(rays[i].captured, alone.captured);
       expect_same(rays[i].direction, alone.direction);
       expect_same(rays[i].position, alone.position);

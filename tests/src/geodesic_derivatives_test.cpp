@@ -29,12 +29,12 @@ TEST(GeodesicDerivatives, DerivativesAreThoseOfTheRays) {
     const double norm = std::sqrt(1 + x * x + y * y);
     const Vec3 d = direction(x, y);
     const DualVec3 dual = dual_vector(d, (Vec3(1, 0, 0) - d * d.x) / norm, (Vec3(0, 1, 0) - d * d.y) / norm);
-    const auto ray = trace_geodesic<Dual>(masses, DualVec3(Dual(0.0)), dual, 1e-13, ball);
+    const auto ray = trace_geodesic<Dual>(masses, DualVec3(Dual(0.0)), dual, 1e-13, {ball});
     ASSERT_FALSE(ray.captured);
     ASSERT_TRUE(ray.hits[0].hit);
     const auto compare = [&](const char* what, const DualVec3& ours, auto pick, double accuracy) {
       const auto picked = [&](double u, double v) {
-        return pick(trace_geodesic<double>(masses, Vec3(0), direction(u, v), kFine, ball));
+        return pick(trace_geodesic<double>(masses, Vec3(0), direction(u, v), kFine, {ball}));
       };
       const Vec3 by_x = difference([&](double u) { return picked(u, y); }, x, 2e-5);
       const Vec3 by_y = difference([&](double v) { return picked(x, v); }, y, 2e-5);

@@ -32,7 +32,7 @@ TEST(GeodesicScene, LightRunsBackTheWayItCame) {
   for (const Vec3& d : {Vec3(0, 0, -1), Vec3(0.3, 0, -1), Vec3(-0.1, 0.2, -1), Vec3(0.02, 0.05, -1)}) {
     const auto there = trace(masses, d.normalized(), kFine, far).hits[0];
     ASSERT_TRUE(there.hit);
-    const auto back = trace_geodesic<double>(masses, there.point, -there.direction, kFine, home).hits[0];
+    const auto back = trace_geodesic<double>(masses, there.point, -there.direction, kFine, {home}).hits[0];
     ASSERT_TRUE(back.hit);
     EXPECT_NEAR(back.point.cross(back.direction).length(), 0, 1e-10);  // passes the camera
     EXPECT_NEAR((back.direction + d.normalized()).length(), 0, 1e-6);  // bends on over the last millimetre
@@ -74,7 +74,7 @@ TEST(GeodesicScene, WithoutMassIsStraightBitForBit) {
   const std::array ball = {Ball{start + d * 10.0, 2.0}, Ball{start, 1.0}, Ball{start - d * 10.0, 2.0}};
   for (const std::span<const PointMass> masses :
        {std::span<const PointMass>(), std::span<const PointMass>(none)}) {
-    const auto ray = trace_geodesic<double>(masses, start, d, 1e-9, ball);
+    const auto ray = trace_geodesic<double>(masses, start, d, 1e-9, {ball});
     EXPECT_FALSE(ray.captured);
     EXPECT_EQ(ray.direction, d);
     EXPECT_EQ(ray.position, start);
@@ -107,7 +107,7 @@ bool all_finite(const GeodesicRay<N>& ray) {
     return std::isfinite(sum);
   };
   bool result = finite(ray.direction) && finite(ray.position) && finite(Vector<N>(ray.delay, N(0.0), N(0.0)));
-  for (const BallHit<N>& hit : ray.hits) {
+  for (const BodyHit<N>& hit : ray.hits) {
     result = result && finite(hit.point) && finite(Vector<N>(hit.length, hit.delay, N(0.0)));
   }
   return result;
@@ -122,7 +122,7 @@ TEST(GeodesicScene, IsFiniteWhateverTheStart) {
         const std::array balls = {Ball{Vec3(0, 0, -10), 3}, Ball{Vec3(x, 0, -z), 1}};
         EXPECT_TRUE(all_finite(trace(masses, Vec3(0, 0, -1), 1e-6, balls))) << x << ' ' << z << ' ' << m;
         const DualVec3 d = dual_vector(Vec3(0, 0, -1), Vec3(1e-3, 0, 0), Vec3(0, 1e-3, 0));
-        EXPECT_TRUE(all_finite(trace_geodesic<Dual>(masses, DualVec3(Dual(0.0)), d, 1e-6, balls)))
+        EXPECT_TRUE(all_finite(trace_geodesic<Dual>(masses, DualVec3(Dual(0.0)), d, 1e-6, {balls})))
             << x << ' ' << z << ' ' << m;
       }
     }

@@ -40,7 +40,7 @@ inline Vec3 at_angle(double chi) {
 
 inline GeodesicRay<double> trace(std::span<const PointMass> masses, const Vec3& direction,
                                  double tolerance = kFine, std::span<const Ball> balls = {}) {
-  return trace_geodesic<double>(masses, Vec3(0), direction, tolerance, balls);
+  return trace_geodesic<double>(masses, Vec3(0), direction, tolerance, {balls});
 }
 
 /// Angle about the mass from the observer to where the ray leaves for infinity, up to full turns.

@@ -9,6 +9,7 @@
 #include <memory>
 #include <random>
 
+#include "src/bodies.h"
 #include "tests/src/film.h"
 
 namespace lensplane {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "src/bodies.h"
 #include "src/constants.h"
 
 namespace lensplane {

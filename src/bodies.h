@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bodies: surfaces at a finite distance, which light meets on its way: spheres, rings and cards. Where they
+// are met, and what is seen there.
+//
+// Bodies and rays are in camera axes. Templates over the number type as in surfaces.h.
+
+#pragma once
+
+#include "src/surfaces.h"
+
+namespace lensplane {
+
+/// Does the surface stand at a finite distance?
+bool is_body(const Surface& surface);
+
+/// Distance at which a ray (unit `direction`) enters the ball; infinite when it does not.
+template <class Number>
+Number sphere_entry(const Vector<Number>& start, const Vector<Number>& direction, const Vec3& centre,
+                    double radius);
+
+/// A straight stretch as it truly runs at the ball; see finite_shift.h.
+template <class Number>
+RaySegment<Number> shifted_to_ball(const Deflectors& deflectors, const RaySegment<Number>& stretch,
+                                   const Sphere& sphere);
+
+/// The point `point` of a body as the ray through `film` sees it that left along `first`: outcome, (s, t) and
+/// magnification. `surface` has to be a body.
+template <class Number>
+SurfaceHit<Number> meet_body_at(const Surface& surface, const Camera& camera, FilmPosition film,
+                                const Vector<Number>& first, const Vector<Number>& point);
+
+/// What a path meets on a body: on a sphere where it first enters. `finite` as of meet().
+template <class Number>
+SurfaceHit<Number> meet_body(const Surface& surface, const Camera& camera, FilmPosition film,
+                             const RayPath<Number>& path, const Deflectors* finite);
+
+}  // namespace lensplane
