@@ -12,7 +12,6 @@
 namespace lensplane {
 namespace {
 
-template <class Number>
 /// What a ray that meets nothing has: its direction as far as it goes.
 template <class Number>
 SurfaceHit<Number> no_hit(const GeodesicRay<Number>& ray) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -235,13 +236,18 @@ Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding&
     apply_rows(processor->getOptimizedCPUProcessor(bit_depth(image.type), OCIO::BIT_DEPTH_F32, kTables),
                image.samples.data(), image.type, image.width, image.height, picture.pixels.data());
   }
-  for_each_pixel(picture, [has_alpha, premultiplied](Rgba& pixel) {
+  std::atomic<std::int64_t> not_numbers = 0;
+  for_each_pixel(picture, [&not_numbers, has_alpha, premultiplied](Rgba& pixel) {
     if (!has_alpha) pixel[3] = 1.0F;
+    if (!std::all_of(pixel.begin(), pixel.end(), [](float channel) { return std::isfinite(channel); })) {
+      ++not_numbers;
+      pixel = {0, 0, 0, std::isfinite(pixel[3]) ? pixel[3] : 1.0F};
+    }
     const bool light_without_cover = premultiplied && pixel[3] == 0.0F;
     if (!light_without_cover) premultiply(pixel);
-    for (float& channel : pixel)
-      channel = std::isnan(channel) ? 0.0F : std::clamp(channel, -kBrightest, kBrightest);
+    for (float& channel : pixel) channel = std::clamp(channel, -kBrightest, kBrightest);
   });
+  picture.not_numbers = not_numbers;
   return picture;
 }
 

@@ -78,8 +78,9 @@ class ColourConfig {
   /// Primaries and white of a linear space that has an interop_id.
   std::optional<Chromaticities> chromaticities(const std::string& space) const;
 
-  /// The picture in linear light in the working space, premultiplied. What is not a number becomes 0, what is
-  /// brighter than kBrightest becomes that, so that one bad pixel stays one. Runs in parallel.
+  /// The picture in linear light in the working space, premultiplied. Pixels with a NaN or an infinity become
+  /// black and are counted (Picture::not_numbers); what is brighter than kBrightest becomes that, so that one
+  /// bad pixel stays one. Runs in parallel.
   Picture to_working(const EncodedImage& image, const ImageEncoding& encoding,
                      const std::string& working) const;
 

@@ -2,39 +2,41 @@
 //
 // Looking pictures up by (s, t): the one place where a plate or a texture is filtered.
 //
-// (s, t) cover the picture's display window, origin at the bottom left. Lookups are bilinear between pixel
-// centres.
+// (s, t) cover the picture's display window, origin at the bottom left. Colours are premultiplied throughout.
+// A texture is a picture with its pyramid in memory, or a tiled file of which the tiles come when they are
+// asked for; lookups do not tell the two apart.
 
 #pragma once
 
 #include <utility>
+#include <variant>
 
+#include "pipeline/composite/pyramid.h"
+#include "pipeline/composite/texture_filter.h"
+#include "pipeline/composite/tiled_texels.h"
 #include "pipeline/image/picture.h"
 #include "src/surfaces.h"
 
 namespace lensplane {
 
-// Black     transparent black
-// Clamp     the nearest pixel
-// Mirror    the picture mirrored at its edges
-// Repeat    the picture again
-// Globe     longitude repeats; beyond a pole lies the other side of the globe
-enum class Wrap { Black, Clamp, Mirror, Repeat, Globe };
-
 class Texture {
  public:
-  Texture(Picture picture, Wrap wrap) : picture_(std::move(picture)), wrap_(wrap) {}
+  Texture(Picture picture, Wrap wrap) : source_(make_pyramid(std::move(picture), wrap)), wrap_(wrap) {}
+  Texture(TiledTexture tiled, Wrap wrap) : source_(std::move(tiled)), wrap_(wrap) {}
 
-  /// The colour at (s, t), which must be finite; premultiplied.
+  /// The colour at (s, t), which must be finite: bilinear between the finest texels.
   Rgba lookup(TextureCoordinates st) const;
 
-  const Picture& picture() const { return picture_; }
+  /// The colour that a pixel of the film sees whose centre sees (s, t): filtered by its footprint. Never a
+  /// NaN nor an infinity, whatever is asked for. Tiled textures throw Failure (BadInput) when their file
+  /// breaks.
+  Rgba filtered(TextureCoordinates st, const Footprint& footprint) const;
+
+  /// The picture; of a tiled texture its windows, without pixels.
+  const Picture& picture() const;
 
  private:
-  Rgba stored(int column, int row) const;
-  Rgba texel(int column, int row) const;
-
-  Picture picture_;
+  std::variant<Pyramid, TiledTexture> source_;
   Wrap wrap_;
 };
 

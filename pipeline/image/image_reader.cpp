@@ -31,6 +31,35 @@ SampleType nearest_type(OIIO::TypeDesc format) {
   return SampleType::Float;
 }
 
+/// Which channels of the file are R, G, B; grey files give the same three times. Nothing when there are none
+/// of these.
+std::optional<std::array<int, 3>> colour_channels(const OIIO::ImageSpec& spec, std::string_view format_name) {
+  const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  if (*std::min_element(named.begin(), named.end()) >= 0) return named;
+  const int grey = spec.channelindex("Y");
+  if (grey >= 0) return std::array{grey, grey, grey};
+  // In EXR any other name is data; elsewhere it is a format's own name for colours.
+  const int without_alpha = spec.nchannels - (spec.alpha_channel >= 0 ? 1 : 0);
+  if (format_name == "openexr" || without_alpha == 0) return std::nullopt;
+  if (without_alpha < 3) return std::array{0, 0, 0};
+  return std::array{0, 1, 2};
+}
+
+/// Channels as the file has them to RGBA; `Sample` is as large as a sample, `opaque` is full alpha.
+template <class Sample>
+void pack(const PixelLayout& layout, const std::vector<std::byte>& file, Sample opaque, EncodedImage& image) {
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  image.samples.resize(pixels * 4 * sizeof(Sample));
+  const auto* in = reinterpret_cast<const Sample*>(file.data());
+  auto* out = reinterpret_cast<Sample*>(image.samples.data());
+  for (std::size_t i = 0; i < pixels; ++i, in += layout.channels, out += 4) {
+    for (std::size_t c = 0; c < 3; ++c) out[c] = in[layout.colours[c]];
+    out[3] = image.has_alpha ? in[layout.alpha] : opaque;
+  }
+}
+
+}  // namespace
+
 OIIO::TypeDesc oiio_type(SampleType type) {
   switch (type) {
     case SampleType::UInt8:
@@ -45,51 +74,29 @@ OIIO::TypeDesc oiio_type(SampleType type) {
   return OIIO::TypeDesc::FLOAT;
 }
 
-/// Which channels of the file are R, G, B; grey files give the same three times. Nothing when there are none
-/// of these.
-std::optional<std::array<int, 3>> colour_channels(const OIIO::ImageInput& input) {
-  const OIIO::ImageSpec& spec = input.spec();
-  const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
-  if (*std::min_element(named.begin(), named.end()) >= 0) return named;
-  const int grey = spec.channelindex("Y");
-  if (grey >= 0) return std::array{grey, grey, grey};
-  // In EXR any other name is data; elsewhere it is a format's own name for colours.
-  const int without_alpha = spec.nchannels - (spec.alpha_channel >= 0 ? 1 : 0);
-  if (std::string_view(input.format_name()) == "openexr" || without_alpha == 0) return std::nullopt;
-  if (without_alpha < 3) return std::array{0, 0, 0};
-  return std::array{0, 1, 2};
+PixelLayout pixel_layout(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+                         std::string_view format_name) {
+  const auto colours = colour_channels(spec, format_name);
+  if (!colours) refuse(path, "it has no channels R, G, B or Y");
+  return {spec.nchannels, *colours, spec.alpha_channel, nearest_type(spec.format),
+          spec.get_int_attribute("oiio:UnassociatedAlpha") == 0};
 }
 
-/// Channels as the file has them to RGBA; `Sample` is as large as a sample, `opaque` is full alpha.
-template <class Sample>
-void pack(const OIIO::ImageSpec& spec, const std::array<int, 3>& colours, const std::vector<std::byte>& file,
-          Sample opaque, EncodedImage& image) {
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  image.samples.resize(pixels * 4 * sizeof(Sample));
-  const auto* in = reinterpret_cast<const Sample*>(file.data());
-  auto* out = reinterpret_cast<Sample*>(image.samples.data());
-  for (std::size_t i = 0; i < pixels; ++i, in += channels, out += 4) {
-    for (std::size_t c = 0; c < 3; ++c) out[c] = in[colours[c]];
-    out[3] = image.has_alpha ? in[spec.alpha_channel] : opaque;
-  }
-}
-
-void pack(const OIIO::ImageSpec& spec, const std::array<int, 3>& colours, const std::vector<std::byte>& file,
-          EncodedImage& image) {
+void pack(const PixelLayout& layout, const std::vector<std::byte>& file, EncodedImage& image) {
+  image.type = layout.type;
+  image.has_alpha = layout.alpha >= 0;
+  image.premultiplied = layout.premultiplied;
   switch (image.type) {
     case SampleType::UInt8:
-      return pack<std::uint8_t>(spec, colours, file, 0xff, image);
+      return pack<std::uint8_t>(layout, file, 0xff, image);
     case SampleType::UInt16:
-      return pack<std::uint16_t>(spec, colours, file, 0xffff, image);
+      return pack<std::uint16_t>(layout, file, 0xffff, image);
     case SampleType::Half:
-      return pack<std::uint16_t>(spec, colours, file, kHalfOne, image);
+      return pack<std::uint16_t>(layout, file, kHalfOne, image);
     case SampleType::Float:
-      return pack<std::uint32_t>(spec, colours, file, std::bit_cast<std::uint32_t>(1.0F), image);
+      return pack<std::uint32_t>(layout, file, std::bit_cast<std::uint32_t>(1.0F), image);
   }
 }
-
-}  // namespace
 
 EncodedImage read_image(const std::filesystem::path& path) {
   std::error_code status;
@@ -102,8 +109,7 @@ EncodedImage read_image(const std::filesystem::path& path) {
   const auto input = OIIO::ImageInput::open(path.string(), &as_stored);
   if (!input) refuse(path, OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
-  const auto colours = colour_channels(*input);
-  if (!colours) refuse(path, "it has no channels R, G, B or Y");
+  const PixelLayout layout = pixel_layout(path, spec, input->format_name());
   if (spec.image_pixels() > kMaxImagePixels) {
     refuse(path, fmt::format("{} x {} pixels; allowed: up to {} million", spec.width, spec.height,
                              kMaxImagePixels >> 20));
@@ -114,15 +120,12 @@ EncodedImage read_image(const std::filesystem::path& path) {
                      .y = spec.y - spec.full_y,
                      .display_width = spec.full_width,
                      .display_height = spec.full_height,
-                     .type = nearest_type(spec.format),
-                     .has_alpha = spec.alpha_channel >= 0,
-                     .premultiplied = spec.get_int_attribute("oiio:UnassociatedAlpha") == 0,
                      .samples = {}};
   std::vector<std::byte> file(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels) *
-                              size_of(image.type));
-  if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(image.type), file.data()))
+                              size_of(layout.type));
+  if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(layout.type), file.data()))
     refuse(path, input->geterror());
-  pack(spec, *colours, file, image);
+  pack(layout, file, image);
   return image;
 }
 

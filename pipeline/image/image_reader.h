@@ -4,9 +4,13 @@
 
 #pragma once
 
+#include <OpenImageIO/imageio.h>
+
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lensplane {
@@ -35,6 +39,25 @@ struct EncodedImage {
   bool premultiplied = true;  // whether colours are premultiplied by alpha; true without alpha
   std::vector<std::byte> samples;
 };
+
+/// How an image file holds its samples.
+struct PixelLayout {
+  int channels = 0;
+  std::array<int, 3> colours{};  // which of them are R, G and B
+  int alpha = -1;                // negative without
+  SampleType type = SampleType::Float;
+  bool premultiplied = true;
+};
+
+/// Throws Failure (BadInput) when the file has no colours.
+PixelLayout pixel_layout(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+                         std::string_view format_name);
+
+/// OpenImageIO's name of the layout's type.
+OIIO::TypeDesc oiio_type(SampleType type);
+
+/// Fills `image.samples`, and what else the layout says, from samples as the file has them.
+void pack(const PixelLayout& layout, const std::vector<std::byte>& file, EncodedImage& image);
 
 /// Reads the first part of an image. EXR and whatever else OpenImageIO reads. Throws Failure (BadInput) with
 /// the path and the reason.

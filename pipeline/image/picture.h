@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct Picture {
   int display_width = 0;
   int display_height = 0;
   std::vector<Rgba> pixels;
+  std::int64_t not_numbers = 0;  // pixels of the file that were NaN or infinite, and were replaced by black
 
   const Rgba& at(int column, int row) const {
     return pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +

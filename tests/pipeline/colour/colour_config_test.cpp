@@ -119,6 +119,18 @@ TEST(ColourConfig, WhatIsNoNumberOrTooBrightStaysFinite) {
   }
 }
 
+TEST(ColourConfig, PixelsThatAreNoNumbersBecomeBlackAndAreCounted) {
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const std::array<float, 16> samples = {1, 2, 3, 1, nan, 1, 1, 1, 1, inf, 1, 0.5F, 4, 5, 6, 1};
+  EncodedImage image{4, 1, 0, 0, 4, 1, SampleType::Float, true, true, std::vector<std::byte>(sizeof samples)};
+  std::memcpy(image.samples.data(), samples.data(), sizeof samples);
+  const Picture got = builtin().to_working(image, {"ACEScg", std::nullopt, false}, "ACEScg");
+  EXPECT_EQ(got.not_numbers, 2);
+  EXPECT_EQ(got.pixels[1], (Rgba{0, 0, 0, 1}));
+  EXPECT_EQ(got.pixels[2], (Rgba{0, 0, 0, 0.5F}));
+  expect_near(got.pixels[3], 4, 5, 6);
+}
+
 TEST(ColourConfig, FilesGetTheirSpacesByTheRules) {
   EXPECT_EQ(builtin().space_of_file("textures/earth_day.jpg"), "sRGB - Texture");
   EXPECT_EQ(builtin().space_of_file("plates/bg.1001.exr"), "ACEScg");

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/composite/footprint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lensplane {
+
+bool is_finite(const Footprint& footprint) {
+  return std::isfinite(footprint.ds_dx) && std::isfinite(footprint.ds_dy) && std::isfinite(footprint.dt_dx) &&
+         std::isfinite(footprint.dt_dy);
+}
+
+Covariance covariance_in_texels(const Footprint& footprint, int width, int height) {
+  // No texture needs more than this, and squares of it are finite.
+  static constexpr double kLargest = 1e15;
+  const auto texels = [](double per_pixel, int size) {
+    return std::clamp(per_pixel * size * kPixelSigma, -kLargest, kLargest);
+  };
+  const double xx = texels(footprint.ds_dx, width), xy = texels(footprint.ds_dy, width);
+  const double yx = texels(-footprint.dt_dx, height), yy = texels(-footprint.dt_dy, height);
+  return {xx * xx + xy * xy, xx * yx + xy * yy, yx * yx + yy * yy};
+}
+
+Axes axes_of(const Covariance& covariance) {
+  const double mean = (covariance.xx + covariance.yy) / 2;
+  const double half = (covariance.xx - covariance.yy) / 2;
+  const double radius = std::sqrt(half * half + covariance.xy * covariance.xy);
+  Axes axes{mean + radius, 0, 1, 0};
+  // The product of the two is the determinant: no cancellation for long ellipses.
+  const double determinant = covariance.xx * covariance.yy - covariance.xy * covariance.xy;
+  if (axes.major > 0) axes.minor = std::clamp(determinant / axes.major, 0.0, axes.major);
+  if (radius <= 1e-12 * mean) return axes;
+  // Half the angle of (half, xy), from the larger of two expressions for it.
+  const double x = half >= 0 ? half + radius : std::abs(covariance.xy);
+  const double y = half >= 0 ? covariance.xy : std::copysign(radius - half, covariance.xy);
+  const double length = std::sqrt(x * x + y * y);
+  axes.x = x / length;
+  axes.y = y / length;
+  return axes;
+}
+
+}  // namespace lensplane

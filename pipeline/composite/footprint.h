@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How much of a texture a pixel of the film sees: the pixel filter, and its image under the Jacobian.
+//
+// A pixel is filtered by a Gaussian of the film; the Jacobian maps it to an ellipse in the texture, which is
+// held as the covariance of that Gaussian. Variances of filters one after the other add up.
+
+#pragma once
+
+#include "src/surfaces.h"
+
+namespace lensplane {
+
+/// Standard deviation of the pixel filter in pixels of the film. Wider is blurred, narrower flickers: of what
+/// repeats in two pixels it leaves 37 %, of what repeats in one pixel and cannot be shown 2 %.
+inline constexpr double kPixelSigma = 0.45;
+
+/// The derivatives of (s, t) by the film position, per pixel.
+struct Footprint {
+  double ds_dx = 0;
+  double ds_dy = 0;
+  double dt_dx = 0;
+  double dt_dy = 0;
+  double scale = 1;  // the filter's width in units of kPixelSigma: less than 1 for rays within a pixel
+};
+
+bool is_finite(const Footprint& footprint);
+
+/// A Gaussian in texels of some level, columns to the right, rows down.
+struct Covariance {
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+};
+
+/// The pixel filter in texels of a picture of `width` x `height`, `scale` left out of account.
+Covariance covariance_in_texels(const Footprint& footprint, int width, int height);
+
+/// The axes of an ellipse: variances along them, and the direction of the longer one.
+struct Axes {
+  double major = 0;
+  double minor = 0;
+  double x = 1;  // unit vector
+  double y = 0;
+};
+
+Axes axes_of(const Covariance& covariance);
+
+}  // namespace lensplane

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/composite/texture_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/composite/close_filter.h"
+#include "pipeline/composite/elliptical_filter.h"
+#include "pipeline/composite/polar_footprints.h"
+#include "pipeline/composite/weighted_sum.h"
+
+namespace lensplane {
+namespace {
+
+// The variance of the triangle, that is, of bilinear interpolation.
+constexpr double kTriangleVariance = 1.0 / 6;
+
+// The shorter axis, in texels, from which on the elliptical filter has its share, and all.
+constexpr double kEllipseStarts = 0.5;
+constexpr double kEllipseOnly = kLargestCloseSigma;
+
+// Texels are this many pixels large where the surface starts to be cubic, and where it is.
+constexpr double kCubicStarts = 2;
+constexpr double kCubicOnly = 4;
+
+// The close filter reads a patch of texels for each of its points, two to a texel.
+constexpr double kTexelsPerLength = 200;
+
+double smooth_step(double from, double to, double x) {
+  const double share = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return share * share * (3 - 2 * share);
+}
+
+/// How cubic the surface is along an axis along which the unscaled pixel filter has this variance in texels.
+double smoothness(double variance) {
+  const double texels_per_pixel = std::sqrt(variance) / kPixelSigma;
+  return 1 - smooth_step(1 / kCubicOnly, 1 / kCubicStarts, texels_per_pixel);
+}
+
+/// A Gaussian as wide as this many pictures along an axis sees their mean.
+double widest(Wrap wrap) {
+  return wrap == Wrap::Repeat || wrap == Wrap::Globe ? 1 : 4;
+}
+
+Covariance scaled(const Covariance& c, double x, double y) {
+  return {c.xx * x * x, c.xy * x * y, c.yy * y * y};
+}
+
+Covariance limited(const Covariance& c, const TexelWindow& window, Wrap wrap) {
+  const auto limit = [&](double variance, int size) {
+    const double most = widest(wrap) * size;
+    return variance > most * most ? most / std::sqrt(variance) : 1.0;
+  };
+  return scaled(c, limit(c.xx, window.display_width), limit(c.yy, window.display_height));
+}
+
+/// What is left for the elliptical filter to do on a level; `total` is to be done on the finest.
+Covariance left_on_level(const std::vector<TexelLevel>& levels, std::size_t level, const Covariance& total) {
+  const TexelWindow& whole = levels.front().window;
+  const TexelLevel& coarse = levels[level];
+  Covariance left = scaled(total, static_cast<double>(coarse.window.display_width) / whole.display_width,
+                           static_cast<double>(coarse.window.display_height) / whole.display_height);
+  left.xx -= coarse.variance_x;
+  left.yy -= coarse.variance_y;
+  const double lacking = std::max(0.0, kSmallestVariance - axes_of(left).minor);
+  left.xx = std::max(left.xx + lacking, kSmallestVariance);
+  left.yy = std::max(left.yy + lacking, kSmallestVariance);
+  return left;
+}
+
+double texels_in(const Covariance& c) {
+  return kTexelsPerEllipse * std::sqrt(std::max(0.0, c.xx * c.yy - c.xy * c.xy));
+}
+
+/// (x, y) of (s, t) on a level, in texels from the centre of the first.
+struct TexelPosition {
+  double x, y;
+};
+TexelPosition position_on(const TexelWindow& window, TextureCoordinates st) {
+  constexpr double kFar = 1e9;  // farther out lookups need no more precision than texel numbers have
+  return {std::clamp(st.s * window.display_width - 0.5, -kFar, kFar),
+          std::clamp((1.0 - st.t) * window.display_height - 0.5, -kFar, kFar)};
+}
+
+Rgba elliptical(Texels& texels, TextureCoordinates st, const Covariance& pixel) {
+  const auto& levels = texels.levels();
+  const Covariance total{pixel.xx + kTriangleVariance, pixel.xy, pixel.yy + kTriangleVariance};
+  // The coarsest level on which the shorter axis is still at least a texel long.
+  const int longest = std::ilogb(std::max(1.0, axes_of(total).minor)) / 2;
+  auto level = std::min(static_cast<std::size_t>(longest), levels.size() - 1);
+  Covariance left = left_on_level(levels, level, total);
+  while (texels_in(left) > kMostTexels && level + 1 < levels.size()) {
+    left = left_on_level(levels, ++level, total);
+  }
+  const TexelPosition at = position_on(levels[level].window, st);
+  return elliptical_mean(texels, static_cast<int>(level), at.x, at.y, left);
+}
+
+Rgba blend(const Rgba& a, const Rgba& b, double share_of_b) {
+  const auto share = static_cast<float>(share_of_b);
+  Rgba sum;
+  for (std::size_t c = 0; c < 4; ++c) sum[c] = a[c] + (b[c] - a[c]) * share;
+  return sum;
+}
+
+/// Under a footprint that is straight enough to be an ellipse.
+Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint) {
+  const TexelWindow& window = texels.levels().front().window;
+  const Covariance whole = covariance_in_texels(footprint, window.display_width, window.display_height);
+  const double scale = std::clamp(footprint.scale, 0.0, 1e3);
+  const Covariance pixel = limited(scaled(whole, scale, scale), window, texels.wrap());
+  const Axes axes = axes_of(pixel);
+  const double minor = std::sqrt(axes.minor);
+  if (minor >= kEllipseOnly || kTexelsPerLength * std::sqrt(axes.major) > kMostTexels) {
+    return elliptical(texels, st, pixel);
+  }
+  const TexelPosition at = position_on(window, st);
+  const Rgba close = close_mean(texels, at.x, at.y, axes, {smoothness(whole.xx), smoothness(whole.yy)});
+  if (minor <= kEllipseStarts) return close;
+  return blend(close, elliptical(texels, st, pixel), smooth_step(kEllipseStarts, kEllipseOnly, minor));
+}
+
+}  // namespace
+
+Rgba filtered_texels(Texels& texels, TextureCoordinates st, const Footprint& footprint) {
+  const bool readable = std::isfinite(st.s) && std::isfinite(st.t) && std::isfinite(footprint.scale);
+  if (!readable || !is_finite(footprint)) {
+    constexpr double kWhole = 1e6;
+    return seen(texels, {0.5, 0.5}, {.ds_dx = kWhole, .dt_dy = kWhole});
+  }
+  if (texels.wrap() != Wrap::Globe || !bends_around_pole(st, footprint)) return seen(texels, st, footprint);
+  WeightedSum sum;
+  for_each_polar_part(st, footprint, [&](double weight, const PolarPart& part) {
+    RowSum one;
+    one.add(1, seen(texels, part.st, part.footprint));
+    sum.add(weight, one);
+  });
+  return sum.mean();
+}
+
+}  // namespace lensplane

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/composite/tile_cache.h"
+
+#include <cstdint>
+
+namespace lensplane {
+namespace {
+
+std::size_t size_in_bytes(const Picture& tile) {
+  return sizeof tile + tile.pixels.size() * sizeof(Rgba);
+}
+
+}  // namespace
+
+std::size_t TileCache::Hash::operator()(const TileKey& key) const {
+  std::uint64_t hash = 0;
+  for (const int part : {key.texture, key.level, key.column, key.row}) {
+    hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9e3779b97f4a7c15;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
+std::shared_ptr<const Picture> TileCache::tile(const TileKey& key, const std::function<Picture()>& make) {
+  Shelf& shelf = shelves_[Hash{}(key) % kShelves];
+  const auto find = [&]() -> std::shared_ptr<const Picture> {
+    const auto found = shelf.places.find(key);
+    if (found == shelf.places.end()) return nullptr;
+    shelf.entries.splice(shelf.entries.begin(), shelf.entries, found->second);
+    return found->second->tile;
+  };
+  {
+    const std::lock_guard lock(shelf.mutex);
+    if (auto tile = find()) return tile;
+  }
+  auto made = std::make_shared<const Picture>(make());
+  const std::lock_guard lock(shelf.mutex);
+  if (auto tile = find()) return tile;
+  shelf.entries.push_front({key, made});
+  shelf.places[key] = shelf.entries.begin();
+  shelf.bytes += size_in_bytes(*made);
+  while (shelf.bytes > bytes_per_shelf_ && !shelf.entries.empty()) {
+    const Entry& oldest = shelf.entries.back();
+    shelf.bytes -= size_in_bytes(*oldest.tile);
+    shelf.places.erase(oldest.key);
+    shelf.entries.pop_back();
+  }
+  return made;
+}
+
+std::size_t TileCache::bytes() const {
+  std::size_t sum = 0;
+  for (const Shelf& shelf : shelves_) {
+    const std::lock_guard lock(shelf.mutex);
+    sum += shelf.bytes;
+  }
+  return sum;
+}
+
+}  // namespace lensplane

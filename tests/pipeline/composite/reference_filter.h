@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What filtering is measured by: the pixel filter's integral over the bilinear surface, by very many points.
+
+#pragma once
+
+#include <cmath>
+#include <functional>
+
+#include "pipeline/composite/texture.h"
+
+namespace lensplane {
+
+/// The pixel filter summed up over a lattice that reaches 4.5 standard deviations and is finer than the
+/// texels.
+inline Rgba reference_filtered(const Texture& texture, TextureCoordinates st, const Footprint& footprint) {
+  const Picture& picture = texture.picture();
+  const int width = picture.display_width, height = picture.display_height;
+  const Axes axes = axes_of(covariance_in_texels(footprint, width, height));
+  constexpr double kReach = 4.5, kTexelsApart = 0.3;
+  const auto steps = [&](double variance) {
+    return std::max(24, static_cast<int>(kReach * footprint.scale * std::sqrt(variance) / kTexelsApart));
+  };
+  const int along = steps(axes.major), across = steps(axes.minor);
+  std::array<double, 4> sum{};
+  double weights = 0;
+  for (int j = -across; j <= across; ++j) {
+    for (int i = -along; i <= along; ++i) {
+      const double a = kReach * i / along, b = kReach * j / across;
+      const double weight = std::exp(-(a * a + b * b) / 2);
+      const double major = a * footprint.scale * std::sqrt(axes.major);
+      const double minor = b * footprint.scale * std::sqrt(axes.minor);
+      const double right = major * axes.x - minor * axes.y, down = major * axes.y + minor * axes.x;
+      const Rgba colour = texture.lookup({st.s + right / width, st.t - down / height});
+      for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * static_cast<double>(colour[c]);
+      weights += weight;
+    }
+  }
+  Rgba mean;
+  for (std::size_t c = 0; c < 4; ++c) mean[c] = static_cast<float>(sum[c] / weights);
+  return mean;
+}
+
+/// A footprint of `major` x `minor` texels to the pixel, the longer one turned by `angle` (radians) from the
+/// right towards below, the film itself by `film_angle`.
+inline Footprint footprint_of(const Picture& picture, double major, double minor, double angle,
+                              double film_angle = 0) {
+  const double c = std::cos(angle), s = std::sin(angle), fc = std::cos(film_angle), fs = std::sin(film_angle);
+  const double xx = c * major * fc + s * minor * fs, xy = c * major * fs - s * minor * fc;
+  const double yx = s * major * fc - c * minor * fs, yy = s * major * fs + c * minor * fc;
+  return {.ds_dx = xx / picture.display_width,
+          .ds_dy = xy / picture.display_width,
+          .dt_dx = -yx / picture.display_height,
+          .dt_dy = -yy / picture.display_height};
+}
+
+/// A picture from a function of column and row.
+inline Picture painted(int width, int height, const std::function<Rgba(int, int)>& colour) {
+  Picture picture{width, height, 0, 0, width, height, {}};
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) picture.pixels.push_back(colour(column, row));
+  }
+  return picture;
+}
+
+/// Circles that grow finer outwards; at a distance of half of `size` they repeat in two texels.
+inline Picture zone_plate(int size) {
+  return painted(size, size, [size](int column, int row) {
+    const double x = column + 0.5 - size / 2.0, y = row + 0.5 - size / 2.0;
+    const auto value = static_cast<float>(0.5 + 0.5 * std::cos(3.14159265358979 * (x * x + y * y) / size));
+    return Rgba{value, 1 - value, 0.5F * value, 1};
+  });
+}
+
+}  // namespace lensplane

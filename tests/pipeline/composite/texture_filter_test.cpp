@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/composite/texture_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "tests/pipeline/composite/reference_filter.h"
+
+namespace lensplane {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::array kWraps = {Wrap::Black, Wrap::Clamp, Wrap::Mirror, Wrap::Repeat, Wrap::Globe};
+
+Picture noise(int width, int height) {
+  std::mt19937 random(7);
+  return painted(width, height, [&](int, int) {
+    const auto value = [&] { return static_cast<float>(random() % 1024) / 1023; };
+    const float alpha = value();
+    return Rgba{alpha * value(), alpha * value(), alpha * value(), alpha};
+  });
+}
+
+Picture checker(int size) {
+  return painted(size, size, [](int column, int row) {
+    const float value = (column + row) % 2 == 0 ? 1.0F : 0.0F;
+    return Rgba{value, value, value, 1};
+  });
+}
+
+/// Footprints between the sizes, in texels to the pixel.
+struct Sizes {
+  double least, most;  // the shorter axis
+  double longest;      // the longer axis is up to this many times as long
+};
+
+/// Signal to noise in decibels, for a peak of 1, of lookups all over the picture and beyond its edges.
+double decibels(const Texture& texture, const Sizes& sizes, int lookups, double margin = 0) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  double squares = 0;
+  for (int i = 0; i < lookups; ++i) {
+    const TextureCoordinates st{uniform(random) * (1 + 2 * margin) - margin,
+                                uniform(random) * (1 + 2 * margin) - margin};
+    const double minor = sizes.least * std::pow(sizes.most / sizes.least, uniform(random));
+    const double major = minor * std::pow(sizes.longest, uniform(random));
+    const Footprint footprint =
+        footprint_of(texture.picture(), major, minor, 2 * kPi * uniform(random), 2 * kPi * uniform(random));
+    const Rgba got = texture.filtered(st, footprint), expected = reference_filtered(texture, st, footprint);
+    for (std::size_t c = 0; c < 3; ++c) squares += std::pow(static_cast<double>(got[c] - expected[c]), 2) / 3;
+  }
+  return -10 * std::log10(squares / lookups);
+}
+
+TEST(TextureFilter, AgreesWithTheReferenceAtAnySize) {
+  for (const Picture& picture : {zone_plate(256), noise(300, 200), checker(128)}) {
+    const Texture texture(picture, Wrap::Mirror);
+    EXPECT_GT(decibels(texture, {0.51, 1.0, 1.01}, 400), 55);  // about 1:1
+    EXPECT_GT(decibels(texture, {0.51, 1.05, 4}, 300), 48);    // sheared
+    EXPECT_GT(decibels(texture, {1.05, 1.5, 4}, 300), 45);     // from the close to the elliptical filter
+    EXPECT_GT(decibels(texture, {1.5, 5, 2}, 300), 48);        // minified
+    EXPECT_GT(decibels(texture, {4, 16, 4}, 100), 50);
+  }
+}
+
+TEST(TextureFilter, LongEllipsesStaySharpAcross) {
+  for (const Picture& picture : {zone_plate(256), noise(300, 200)}) {
+    const Texture texture(picture, Wrap::Mirror);
+    for (const double angle : {0.0, 0.3, kPi / 4, kPi / 2, 2.5}) {
+      const Footprint arc = footprint_of(picture, 100, 1, angle), wide = footprint_of(picture, 200, 2, angle);
+      for (const TextureCoordinates st : {TextureCoordinates{0.3, 0.4}, {0.52, 0.7}, {0.5, 0.5}}) {
+        for (const Footprint& footprint : {arc, wide}) {
+          const Rgba got = texture.filtered(st, footprint),
+                     expected = reference_filtered(texture, st, footprint);
+          for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(got[c], expected[c], 0.004) << angle;
+        }
+      }
+    }
+  }
+}
+
+TEST(TextureFilter, EdgesAreAsTheReferenceSays) {
+  for (const Wrap wrap : {Wrap::Black, Wrap::Clamp, Wrap::Mirror, Wrap::Repeat}) {
+    const Texture texture(noise(50, 34), wrap);
+    EXPECT_GT(decibels(texture, {0.6, 2, 3}, 300, 0.2), 42) << static_cast<int>(wrap);
+    EXPECT_GT(decibels(texture, {2, 6, 3}, 200, 0.2), 42) << static_cast<int>(wrap);
+  }
+}
+
+TEST(TextureFilter, OverscanAndOddSizesKeepTheirPlaceOnEveryLevel) {
+  // A ramp is itself wherever it is filtered, when texel centres and means are right.
+  for (const int x : {0, -7}) {
+    Picture ramp = painted(333, 217, [&](int column, int row) {
+      return Rgba{static_cast<float>(column + x), static_cast<float>(row + x), 0, 1};
+    });
+    ramp.x = ramp.y = x;
+    ramp.display_width = 333 + 2 * x;
+    ramp.display_height = 217 + 2 * x;
+    const Texture texture(ramp, Wrap::Clamp);
+    for (const double texels : {0.1, 0.5, 1.0, 1.1, 1.2, 2.0, 3.0, 5.0, 9.0, 12.0}) {
+      const TextureCoordinates st{0.47, 0.55};
+      const Rgba got = texture.filtered(st, footprint_of(ramp, texels * 1.3, texels, 0.6));
+      EXPECT_NEAR(got[0], st.s * ramp.display_width - 0.5, 0.01 * texels) << texels << " " << x;
+      EXPECT_NEAR(got[1], (1 - st.t) * ramp.display_height - 0.5, 0.01 * texels) << texels << " " << x;
+    }
+  }
+}
+
+TEST(TextureFilter, WhatIsConstantStaysConstant) {
+  const Rgba colour{0.3F, 20, 0.007F, 0.75F};
+  for (const Wrap wrap : {Wrap::Clamp, Wrap::Mirror, Wrap::Repeat, Wrap::Globe}) {
+    const Texture texture(painted(101, 47, [&](int, int) { return colour; }), wrap);
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> uniform(-0.5, 1.5), power(-3, 5);
+    for (int i = 0; i < 2000; ++i) {
+      const Footprint footprint = footprint_of(texture.picture(), std::pow(10, power(random)),
+                                               std::pow(10, power(random)), uniform(random) * 7);
+      const Rgba got = texture.filtered({uniform(random), uniform(random)}, footprint);
+      for (std::size_t c = 0; c < 4; ++c) ASSERT_NEAR(got[c] / colour[c], 1, 1e-5);
+    }
+  }
+}
+
+TEST(TextureFilter, LightIsKept) {
+  // One bright texel in the dark, filmed by a lattice of pixels: what all of them see together does not
+  // depend on how many they are.
+  const Texture texture(
+      painted(96, 96,
+              [](int column, int row) {
+                return column == 40 && row == 51 ? Rgba{1000, 1000, 1000, 1} : Rgba{0, 0, 0, 0};
+              }),
+      Wrap::Black);
+  for (const double texels : {0.2, 0.7, 1.0, 1.15, 1.7, 2.3, 3.1, 4.4, 6.0, 9.0}) {
+    double sum = 0;
+    const Footprint footprint = footprint_of(texture.picture(), texels, texels, 0);
+    for (double y = 0.1; y < 96; y += texels / 2) {
+      for (double x = 0.2; x < 96; x += texels / 2) {
+        const Rgba got = texture.filtered({x / 96, 1 - y / 96}, footprint);
+        EXPECT_GE(got[0], 0);
+        sum += static_cast<double>(got[0]) * texels * texels / 4;
+      }
+    }
+    EXPECT_NEAR(sum, 1000, 5) << texels;
+  }
+}
+
+TEST(TextureFilter, NothingJumpsWhenFootprintsGrow) {
+  const Texture texture(noise(256, 256), Wrap::Repeat);
+  for (const double ratio : {1.0, 3.0}) {
+    for (double texels = 0.02; texels < 60; texels *= 1.002) {
+      const auto at = [&](double size) {
+        return texture.filtered({0.312, 0.57}, footprint_of(texture.picture(), size * ratio, size, 0.4));
+      };
+      const Rgba here = at(texels), next = at(texels * 1.002);
+      for (std::size_t c = 0; c < 4; ++c) ASSERT_NEAR(here[c], next[c], 0.008) << texels << " " << ratio;
+    }
+  }
+}
+
+TEST(TextureFilter, MagnifiedItIsSmoothAndNeverNegative) {
+  const Texture texture(painted(32, 32,
+                                [](int column, int row) {
+                                  return column == 16 && row == 16 ? Rgba{1, 1, 1, 1} : Rgba{0, 0, 0, 0};
+                                }),
+                        Wrap::Clamp);
+  // Second differences along a line: the bilinear surface has creases of 0.03 to the step here.
+  const Footprint footprint = footprint_of(texture.picture(), 0.03, 0.03, 0);
+  const auto along = [&](double x) { return texture.filtered({x / 32, 15.6 / 32}, footprint)[0]; };
+  for (double x = 13; x < 20; x += 0.03) {
+    EXPECT_GE(along(x), 0);
+    EXPECT_NEAR(along(x - 0.03) - 2 * along(x) + along(x + 0.03), 0, 0.003);
+  }
+}
+
+TEST(TextureFilter, TheSeamOfAGlobeIsNotSeen) {
+  // A smooth function of the longitude that goes round once.
+  const Texture texture(painted(200, 100,
+                                [](int column, int) {
+                                  const auto value =
+                                      static_cast<float>(std::cos(2 * kPi * (column + 0.5) / 200));
+                                  return Rgba{value, value, value, 1};
+                                }),
+                        Wrap::Globe);
+  for (const double texels : {0.2, 1.0, 3.0, 10.0}) {
+    const Footprint footprint = footprint_of(texture.picture(), texels, texels, 0.2);
+    for (double s = -0.02; s < 0.02; s += 0.001) {
+      const double blur = 2 * kPi * texels / 200 * kPixelSigma;
+      const double expected = std::cos(2 * kPi * s) * std::exp(-0.5 * blur * blur);
+      EXPECT_NEAR(texture.filtered({s, 0.5}, footprint)[0], expected, 0.002) << s << " " << texels;
+      EXPECT_NEAR(texture.filtered({s + 1, 0.5}, footprint)[0], expected, 0.002) << s << " " << texels;
+    }
+  }
+}
+
+/// A camera that looks down on the north pole: a film position, in radians from the pole, and what it sees.
+struct PolarView {
+  TextureCoordinates st;
+  Footprint footprint;
+};
+PolarView polar_view(double u, double v, double radians_per_pixel) {
+  const double r = std::hypot(u, v);
+  const double around = radians_per_pixel / (r * r * 2 * kPi), out = radians_per_pixel / (r * kPi);
+  return {{std::atan2(v, u) / (2 * kPi), 1 - r / kPi},
+          {.ds_dx = -v * around, .ds_dy = u * around, .dt_dx = -u * out, .dt_dy = -v * out}};
+}
+
+TEST(TextureFilter, PolesAreFilteredAsAnyOtherPlace) {
+  // On the plane at the pole this is a wave; filtered it is the same wave, but weaker.
+  const int width = 720, height = 360;
+  const double wave = 40;  // radians of phase per radian
+  const Texture texture(
+      painted(width, height,
+              [&](int column, int row) {
+                const double r = kPi * (row + 0.5) / height, s = 2 * kPi * (column + 0.5) / width;
+                const auto value = static_cast<float>(std::cos(wave * r * std::cos(s) + 0.5));
+                return Rgba{value, value, value, 1};
+              }),
+      Wrap::Globe);
+  for (const double pixel : {0.001, 0.004, 0.01, 0.03}) {
+    for (const double away : {0.03, 0.3, 0.9, 1.4, 2.2, 4.0}) {
+      for (const double angle : {0.1, 1.2, 2.9, 5.0}) {
+        const double u = away * pixel * std::cos(angle), v = away * pixel * std::sin(angle);
+        const PolarView view = polar_view(u, v, pixel);
+        const double blur =
+            wave * std::sqrt(std::pow(kPixelSigma * pixel, 2) + std::pow(kPi / height, 2) / 6);
+        const double expected = std::cos(wave * u + 0.5) * std::exp(-blur * blur / 2);
+        EXPECT_NEAR(texture.filtered(view.st, view.footprint)[0], expected, 0.03) << pixel << " " << away;
+      }
+    }
+  }
+}
+
+TEST(TextureFilter, FootprintsWithinAPixelAreNarrower) {
+  const Texture texture(zone_plate(256), Wrap::Clamp);
+  Footprint part = footprint_of(texture.picture(), 4, 2, 0.3);
+  part.scale = 0.25;
+  const Footprint small = footprint_of(texture.picture(), 1, 0.5, 0.3);
+  const Rgba a = texture.filtered({0.6, 0.7}, part), b = texture.filtered({0.6, 0.7}, small);
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(a[c], b[c], 1e-6);
+}
+
+TEST(TextureFilter, WhateverIsAskedForTheAnswerIsFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const Wrap wrap : kWraps) {
+    const Texture texture(noise(64, 33), wrap);
+    for (const double huge : {0.0, 1e-300, 1.0, 1e3, 1e12, 1e300, inf, nan, -1e300}) {
+      for (const double other : {0.0, 1e-3, 1e300, nan}) {
+        for (const double s : {0.0, 0.5, 1.0, -1e9, 1e300, nan}) {
+          for (const Footprint& footprint : {Footprint{huge, other, other, huge},
+                                             {huge, huge, huge, huge, other},
+                                             {huge, 0, 0, other},
+                                             {0, other, huge, 0}}) {
+            for (const float channel : texture.filtered({s, 0.7}, footprint))
+              ASSERT_TRUE(std::isfinite(channel));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(TextureFilter, FootprintsOfNoUseSeeTheMean) {
+  const Picture picture = noise(64, 33);
+  std::array<double, 4> mean{};
+  for (const Rgba& pixel : picture.pixels) {
+    for (std::size_t c = 0; c < 4; ++c) mean[c] += static_cast<double>(pixel[c]) / (64 * 33);
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Rgba got = Texture(picture, Wrap::Globe).filtered({0.2, 0.3}, {nan, 0, 0, 0});
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(got[c], mean[c], 0.03);
+}
+
+}  // namespace
+}  // namespace lensplane
