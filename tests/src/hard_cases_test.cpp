@@ -417,6 +417,8 @@ TEST(HardCases, BetweenTwoMassesInLineLightWindsAndIsSentBackAndForth) {
   constexpr double kAngle = 0.0049056575377135628;
   const Deflectors exact = deflectors_of(scene, Law::Exact, true);
   const RayPath<double> path = march_planes<double>(exact, Vec3(std::sin(kAngle), 0, -std::cos(kAngle)));
+  EXPECT_TRUE(path.captured);  // one and a half turns round the far mass, then straight into the near one
+  EXPECT_EQ(path.bends, 2);
   for (const RaySegment<double>& segment : path.segments) {
     for (const Vec3& v : {segment.start, segment.direction}) EXPECT_TRUE(std::isfinite(v.x + v.y + v.z));
   }
