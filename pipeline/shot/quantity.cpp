@@ -126,7 +126,8 @@ ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
     return wrong(
         fmt::format("{} is too large; {}, up to 1e100 in SI units", in_quotes(text), needed(dimension)));
   }
-  if (result.value != 0 ? !std::isnormal(result.value) : number != 0) {
+  // As it is written, too: a large unit does not bring back digits that are lost.
+  if (number != 0 && !(std::isnormal(number) && std::isnormal(result.value))) {
     return wrong(fmt::format("{} is too small to be told from zero; {}", in_quotes(text), needed(dimension)));
   }
   return result;

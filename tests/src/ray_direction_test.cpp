@@ -63,10 +63,11 @@ TEST(RayDirection, OfARayThatMissesABallIsThatOfTheSkyBehind) {
         EXPECT_NEAR(direction_of(ball, i).length(), 1.0, 1e-15) << i;
       }
       for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
-        if (planes.surfaces[k].outcome[ray] != Outcome::Captured)
-          EXPECT_LT((direction_of(planes.surfaces[k], i) - direction_of(curved.surfaces[k], i)).length(),
-                    1e-7)
-              << i;
+        if (planes.surfaces[k].outcome[ray] == Outcome::Captured) continue;
+        const Vec3 apart = direction_of(planes.surfaces[k], i) - direction_of(curved.surfaces[k], i);
+        // On the ball `planes` has the direction from the mass to there, `geodesic` that of the curve.
+        const bool on_ball = k == 1 && planes.surfaces[k].outcome[ray] == Outcome::Hit;
+        EXPECT_LT(apart.length(), on_ball ? 3e-6 : 1e-9) << i;
       }
     }
     EXPECT_GT(missed, 200);
