@@ -49,7 +49,7 @@ OCIO::GroupTransformRcPtr grade_transform(const Grade& grade, const std::string&
   };
   const auto cdl = OCIO::FileTransform::Create();
   cdl->setSrc(std::filesystem::absolute(grade.cdl).c_str());
-  cdl->setCCCId(grade.id.c_str());
+  cdl->setCCCId(grade.id.empty() ? "0" : grade.id.c_str());  // a name, or a number from 0
   const auto steps = OCIO::GroupTransform::Create();
   steps->appendTransform(convert(working, grade.space));
   steps->appendTransform(cdl);

@@ -16,9 +16,10 @@ namespace {
 using Rgb = std::array<float, 3>;
 
 // Binomial kernels: one blurs, the other, between two rows of pixels, halves and doubles.
-constexpr std::array<float, 7> kBlur = {1 / 64.F,  6 / 64.F, 15 / 64.F, 20 / 64.F,
-                                        15 / 64.F, 6 / 64.F, 1 / 64.F};
-constexpr double kBlurVariance = 1.5;
+constexpr std::array<float, 13> kBlur = {1 / 4096.F,   12 / 4096.F,  66 / 4096.F,  220 / 4096.F, 495 / 4096.F,
+                                         792 / 4096.F, 924 / 4096.F, 792 / 4096.F, 495 / 4096.F, 220 / 4096.F,
+                                         66 / 4096.F,  12 / 4096.F,  1 / 4096.F};
+constexpr double kBlurVariance = 3;
 constexpr std::array<float, 4> kHalve = {1 / 8.F, 3 / 8.F, 3 / 8.F, 1 / 8.F};
 constexpr double kHalveVariance = 0.75;
 
@@ -101,74 +102,78 @@ Upward upward(int i) {
 
 /// `level` with the next smaller one added to it, spread to its size.
 Level with_doubled(Level level, const Level& smaller) {
-  constexpr float kOwn = 2 * kHalve[1] / 2, kOther = 2 * kHalve[0] / 2;
+  constexpr float kOwn = 2 * kHalve[1], kOther = 2 * kHalve[0];
   tbb::parallel_for(tbb::blocked_range<int>(0, level.height, 8), [&](const tbb::blocked_range<int>& rows) {
     for (int j = rows.begin(); j != rows.end(); ++j) {
       const Upward y = upward(j + level.top);
       for (int i = 0; i < level.width; ++i) {
         const Upward x = upward(i + level.left);
         Rgb& sum = level.at(i, j);
-        add_scaled(sum, smaller.value(x.own, y.own), kOwn * kOwn * 4);
-        add_scaled(sum, smaller.value(x.other, y.own), kOther * kOwn * 4);
-        add_scaled(sum, smaller.value(x.own, y.other), kOwn * kOther * 4);
-        add_scaled(sum, smaller.value(x.other, y.other), kOther * kOther * 4);
+        add_scaled(sum, smaller.value(x.own, y.own), kOwn * kOwn);
+        add_scaled(sum, smaller.value(x.other, y.own), kOther * kOwn);
+        add_scaled(sum, smaller.value(x.own, y.other), kOwn * kOther);
+        add_scaled(sum, smaller.value(x.other, y.other), kOther * kOther);
       }
     }
   });
   return level;
 }
 
-/// Blurred and weighted, with the margin that the larger levels' pixels take from.
-Level blurred(const Level& level, float weight) {
-  constexpr int kMargin = 3, kReach = static_cast<int>(kBlur.size()) / 2;
+/// Blurred, with a margin around it.
+Level blurred(const Level& level, int margin) {
+  constexpr int kReach = static_cast<int>(kBlur.size()) / 2;
   const Level wide =
-      filled(Level(level.width + 2 * kMargin, level.height, level.left - kMargin, level.top),
+      filled(Level(level.width + 2 * margin, level.height, level.left - margin, level.top),
              [&](int column, int row) { return weighted(level, column - kReach, row, false, kBlur); });
-  return filled(Level(wide.width, level.height + 2 * kMargin, wide.left, level.top - kMargin),
-                [&](int column, int row) {
-                  Rgb sum = weighted(wide, column, row - kReach, true, kBlur);
-                  for (float& channel : sum) channel *= weight;
-                  return sum;
-                });
+  return filled(Level(wide.width, level.height + 2 * margin, wide.left, level.top - margin),
+                [&](int column, int row) { return weighted(wide, column, row - kReach, true, kBlur); });
 }
 
-/// Variance of the blur at a level, in pixels of the picture: its own, and those of halving and doubling on
-/// the way there and back.
-double variance_of(int level) {
-  const double scale2 = std::exp2(2.0 * level);
-  return kBlurVariance * scale2 + 2 * kHalveVariance * (scale2 - 1) / 3;
+/// A level blurred once and twice, each with its weight, and the margin that the pixels of the next larger
+/// level take from.
+Level blurred_twice(const Level& level, float weight_once, float weight_twice) {
+  constexpr int kMargin = 3, kReach = static_cast<int>(kBlur.size()) / 2;
+  const Level once = blurred(level, kMargin + kReach);
+  const Level twice = blurred(once, 0);
+  return filled(Level(once.width, once.height, once.left, once.top), [&](int column, int row) {
+    Rgb sum{0, 0, 0};
+    add_scaled(sum, once.value(column, row), weight_once);
+    add_scaled(sum, twice.value(column, row), weight_twice);
+    return sum;
+  });
 }
 
-/// Shares of P in its Gaussians. As a mixture of Gaussians over the logarithm of their width sigma P has the
-/// density r0 / sigma exp(-(r0 / sigma)^2 / 2) times a constant.
+/// Standard deviation of Gaussian `i` in pixels of the picture: of level i / 2, blurred once or twice, and of
+/// halving and doubling on the way there and back.
+double width_of(int i) {
+  const double scale2 = std::exp2(2.0 * (i / 2));
+  return std::sqrt(kBlurVariance * (1 + i % 2) * scale2 + 2 * kHalveVariance * (scale2 - 1) / 3);
+}
+
+/// Shares of P in its Gaussians. P is a mixture of Gaussians, of which those up to the width sigma hold the
+/// share erfc(r0 / (sqrt(2) sigma)); each of ours stands for those around it, the first for all that are
+/// narrower, the last, wider than any picture needs, for all that are wider.
 std::vector<float> weights_of(const Glow& glow, int longest_side) {
   const double r0 = glow.radius_px / std::sqrt(3.0);
-  std::vector<double> densities;
-  double sum = 0;
-  for (int level = 0;; ++level) {
-    const double variance = variance_of(level);
-    const double x = r0 / std::sqrt(variance);
-    densities.push_back(x * std::exp(-0.5 * x * x));
-    sum += densities.back();
-    const bool wider_than_picture = std::sqrt(variance) > 4.0 * longest_side;
-    const bool past_the_peak = x < 0.25;
-    if (wider_than_picture && past_the_peak) break;
-  }
-  // All wider ones together, each with half the share of the one before, are as much as the last.
-  densities.back() *= 2;
-  sum += densities.back() / 2;
   std::vector<float> weights;
-  for (const double density : densities) weights.push_back(static_cast<float>(density / sum));
-  return weights;
+  double below = 0;
+  for (int i = 0;; ++i) {
+    const bool last = i % 2 != 0 && width_of(i) > 4.0 * std::max<double>(longest_side, r0);
+    const double edge = std::sqrt(width_of(i) * width_of(i + 1));
+    const double up_to_here = last ? 1 : std::erfc(r0 / (std::sqrt(2.0) * edge));
+    weights.push_back(static_cast<float>(up_to_here - below));
+    below = up_to_here;
+    if (last) return weights;
+  }
 }
 
 /// The scattered light as if all of it were scattered.
 Level scattered(const Level& light, const std::vector<float>& weights) {
   std::vector<Level> levels;
   Level level = light;
-  for (std::size_t k = 0; k < weights.size(); ++k) {
-    if (k > 0) level = halved(level);
-    levels.push_back(blurred(level, weights[k]));
+  for (std::size_t i = 0; i < weights.size(); i += 2) {
+    if (i > 0) level = halved(level);
+    levels.push_back(blurred_twice(level, weights[i], weights[i + 1]));
   }
   Level sum = std::move(levels.back());
   for (std::size_t k = levels.size() - 1; k-- > 0;) sum = with_doubled(std::move(levels[k]), sum);

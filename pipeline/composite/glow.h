@@ -6,8 +6,8 @@
 //   P(r) = r0 / (2 pi (r^2 + r0^2)^(3/2)),  r0 = radius / sqrt(3),
 // whose integral over the plane is 1 and of which half lies within `radius`. Its tail falls like r^-3, as the
 // glare of the eye and of lenses does (Spencer et al. 1995, whose widest term it is). P is made of Gaussians,
-// each twice as wide as the one before, with weights that add up to 1: the picture is halved again and again,
-// blurred at every size, and added up on the way back. How well they follow P is kGlowError.
+// each about 1.4 times as wide as the one before, with weights that add up to 1: the picture is halved again
+// and again, blurred at every size, and added up on the way back. How well they follow P is kGlowError.
 //
 // No light is gained or lost but what spreads beyond the data window; nothing comes in from there: the
 // overscan is what light from outside the frame is taken from.
@@ -23,8 +23,8 @@ struct Glow {
   double radius_px = 0;  // radius of the circle that holds half of it, > 0
 };
 
-/// The largest relative error of the point-spread within 30 radii, from a radius of 6 pixels on.
-inline constexpr double kGlowError = 0.05;
+/// The largest relative error of the point-spread within 30 radii, from a radius of 10 pixels on.
+inline constexpr double kGlowError = 0.04;
 
 /// The picture with its glow; alpha stays as it is. Runs in parallel; the picture does not depend on the
 /// number of threads.

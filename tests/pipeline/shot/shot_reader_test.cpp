@@ -200,7 +200,7 @@ TEST(ShotReader, RefusesWithPlaceKeyReasonAndWhatIsAllowed) {
   EXPECT_EQ(
       line_for("fov: 3 deg", "fv: 3 deg"),
       "s.yaml:7:3: camera.fv: unknown key; allowed: projection, resolution, fov, focal_length, film_width, "
-      "position, look_at, rotation, up, overscan, shutter, from");
+      "position, look_at, rotation, up, overscan, shutter, from, glow");
   EXPECT_EQ(
       line_for("  fov: 3 deg\n", ""),
       "s.yaml:6:3: camera.fov: missing; needed: the full horizontal angle, like 3 deg (or focal_length and "
