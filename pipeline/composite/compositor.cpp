@@ -148,7 +148,7 @@ class TileTaker {
       for (int column = 0; column < tile_.width; ++column) {
         const std::size_t at = grid.place(column, row);
         if (edges[at]) {
-          edge_pixels.push_back({column, row, {}});
+          edge_pixels.push_back({column, row, {}, 0, {}});
           continue;
         }
         count(film(column, row), grid.points(at));
@@ -244,6 +244,12 @@ Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks,
     result.refined += of_tile.refined;
   }
   return result;
+}
+
+std::vector<double> covered_pixels(const Tracer& tracer, const Sampling& sampling) {
+  const Picture white{1, 1, 0, 0, 1, 1, {{1, 1, 1, 1}}};
+  const SurfaceLook plain{std::make_shared<const Texture>(white, Wrap::Clamp), {}, {}, {}};
+  return composite(tracer, std::vector<SurfaceLook>(tracer.surfaces().size(), plain), sampling).hits;
 }
 
 }  // namespace lensplane

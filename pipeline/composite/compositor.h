@@ -14,6 +14,7 @@
 
 #include "pipeline/composite/layering.h"
 #include "pipeline/composite/sample_pattern.h"
+#include "src/tracer.h"
 
 namespace lensplane {
 
@@ -33,5 +34,8 @@ float seen_brightness(float light);
 /// call for the Jacobian. Where a ray meets nothing the picture is transparent black. Runs in parallel; the
 /// picture does not depend on the number of threads.
 Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling);
+
+/// Composite::hits without a picture.
+std::vector<double> covered_pixels(const Tracer& tracer, const Sampling& sampling);
 
 }  // namespace lensplane

@@ -65,6 +65,23 @@ SeenPoint seen_point(const SurfaceBatch& surface, std::size_t i) {
           {p.ds_dx[i], p.ds_dy[i], p.dt_dx[i], p.dt_dy[i]}};
 }
 
+Rgba shade(const Surface& surface, const SurfaceLook& look, TextureCoordinates st,
+           const Footprint& footprint) {
+  Rgba colour = look.texture->filtered(st, footprint);
+  if (!look.light) return colour;
+  if (std::holds_alternative<Sphere>(surface)) {
+    const auto night = look.night ? std::optional(look.night->filtered(st, footprint)) : std::nullopt;
+    return lit(colour, night, sphere_normal_from_st(st).dot(*look.light));
+  }
+  if (const auto* ring = std::get_if<Ring>(&surface); ring && look.caster) {
+    const double width =
+        (ring->outer - ring->inner) * footprint.scale * std::hypot(footprint.ds_dx, footprint.ds_dy);
+    const Vec3 point = ring->axes.local_from_parent(ring_point_from_st(*ring, st) - ring->centre);
+    scale_colour(light_share(*look.caster, *look.light, point, width), colour);
+  }
+  return colour;
+}
+
 Viewer::Viewer(const std::vector<Surface>& surfaces, const std::vector<SurfaceLook>& looks)
     : surfaces_(surfaces), looks_(looks), order_(order_at_infinity(surfaces)), by_depth_(order_) {
   assert(looks.size() == surfaces.size());
@@ -79,28 +96,14 @@ void Viewer::sort_by_depth(std::span<const SeenPoint> points) {
   }
 }
 
-Rgba Viewer::shade(std::size_t surface, const SeenPoint& point, double scale) const {
-  const SurfaceLook& look = looks_[surface];
-  Footprint footprint = point.footprint;
-  footprint.scale = scale;
-  Rgba colour = look.texture->filtered(point.st, footprint);
-  if (!look.light) return colour;
-  if (std::holds_alternative<Sphere>(surfaces_[surface])) {
-    const auto night = look.night ? std::optional(look.night->filtered(point.st, footprint)) : std::nullopt;
-    return lit(colour, night, sphere_normal_from_st(point.st).dot(*look.light));
-  }
-  if (const auto* ring = std::get_if<Ring>(&surfaces_[surface]); ring && look.caster) {
-    const double width = (ring->outer - ring->inner) * scale * std::hypot(footprint.ds_dx, footprint.ds_dy);
-    scale_colour(light_share(*look.caster, *look.light, ring_point_from_st(*ring, point.st), width), colour);
-  }
-  return colour;
-}
-
 Rgba Viewer::see(std::span<const SeenPoint> points, double scale) {
   Rgba colour{0, 0, 0, 0};
   if (order_.size() > 1) sort_by_depth(points);
   for (auto k = by_depth_.rbegin(); k != by_depth_.rend() && colour[3] < 1.0F; ++k) {
-    if (points[*k].hit) lay_under(colour, shade(*k, points[*k], scale));
+    if (!points[*k].hit) continue;
+    Footprint footprint = points[*k].footprint;
+    footprint.scale = scale;
+    lay_under(colour, shade(surfaces_[*k], looks_[*k], points[*k].st, footprint));
   }
   return colour;
 }
@@ -109,7 +112,7 @@ float Viewer::clearness(std::span<const SeenPoint> points) const {
   float clear = 1.0F;
   for (std::size_t k = 0; k < surfaces_.size() && clear > 0.0F; ++k) {
     if (points[k].hit && !std::holds_alternative<LatLong>(surfaces_[k])) {
-      clear *= 1.0F - shade(k, points[k], 1.0)[3];
+      clear *= 1.0F - shade(surfaces_[k], looks_[k], points[k].st, points[k].footprint)[3];
     }
   }
   return std::max(clear, 0.0F);

@@ -37,11 +37,15 @@ SeenPoint seen_point(const SurfaceBatch& surface, std::size_t i);
 /// What a surface of the scene looks like.
 struct SurfaceLook {
   std::shared_ptr<const Texture> texture;
-  std::optional<Vec3> light;  // unit vector towards the light in the surface's own axes: spheres are shaded
+  std::optional<Vec3> light = {};  // unit vector towards the light in the surface's own axes: spheres are shaded
                               // by Lambert's law, rings lie in the shadow of `caster`
-  std::shared_ptr<const Texture> night;  // spheres: what shines where the light does not reach
-  std::optional<ShadowCaster> caster;    // rings
+  std::shared_ptr<const Texture> night = {};  // spheres: what shines where the light does not reach
+  std::optional<ShadowCaster> caster = {};    // rings
 };
+
+/// The colour of a surface at (s, t), under a footprint.
+Rgba shade(const Surface& surface, const SurfaceLook& look, TextureCoordinates st,
+           const Footprint& footprint);
 
 /// How far the night reaches into the day of a sphere, as the cosine to the light: the twilight.
 inline constexpr double kTwilight = 0.1;
@@ -64,7 +68,6 @@ class Viewer {
   float clearness(std::span<const SeenPoint> points) const;
 
  private:
-  Rgba shade(std::size_t surface, const SeenPoint& point, double scale) const;
   void sort_by_depth(std::span<const SeenPoint> points);
 
   const std::vector<Surface>& surfaces_;

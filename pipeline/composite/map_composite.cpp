@@ -23,13 +23,13 @@ double distance_at(const MapLayer& layer, std::size_t i) {
 /// What the layer shows at pixel `i`, premultiplied by its coverage.
 Rgba seen_at(const MapLayer& layer, std::size_t i) {
   const TextureCoordinates st{layer.map.s[i], layer.map.t[i]};
-  Rgba colour = filtered(*layer.look.texture, st, layer.footprints[i]);
-  if (layer.look.light) {
-    const auto cosine = static_cast<float>(std::max(0.0, sphere_normal_from_st(st).dot(*layer.look.light)));
-    for (std::size_t c = 0; c < 3; ++c) colour[c] *= cosine;
-  }
+  Rgba colour = shade(layer.surface, layer.look, st, layer.footprints[i]);
   for (float& channel : colour) channel *= layer.map.coverage[i];
   return colour;
+}
+
+bool is_sky(const MapLayer& layer) {
+  return std::holds_alternative<LatLong>(layer.surface);
 }
 
 /// Layers that follow one another from the farthest at pixel `i`.
@@ -37,7 +37,7 @@ void sort_by_depth(const std::vector<MapLayer>& layers, std::size_t i, std::vect
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const double of_a = distance_at(layers[a], i), of_b = distance_at(layers[b], i);
-    return of_a != of_b ? of_a > of_b : layers[a].is_sky && !layers[b].is_sky;
+    return of_a != of_b ? of_a > of_b : is_sky(layers[a]) && !is_sky(layers[b]);
   });
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pipeline/composite/compositor.h"
-#include "pipeline/composite/filtered_lookup.h"
+#include "pipeline/composite/footprint.h"
 #include "pipeline/image/map_reader.h"
 
 namespace lensplane {
@@ -20,10 +20,10 @@ namespace lensplane {
 struct MapLayer {
   StMap map;
   std::vector<Footprint> footprints;
+  Surface surface = Plate{};
   SurfaceLook look;
   std::vector<float> depth;  // metres along the ray, the largest float at infinity; empty: `distance`
   double distance = 0;       // metres to its centre; infinite for plates and skies
-  bool is_sky = false;       // lies behind all else at infinity
 };
 
 /// The layers over one another: nearer ones over farther ones, at infinity plates over skies, at the same

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "pipeline/composite/filtered_lookup.h"
+#include "pipeline/composite/footprint.h"
 #include "pipeline/image/map_reader.h"
 
 namespace lensplane {

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/sequence/amplification.h"
+
 namespace lensplane {
 
 enum class Phase { Load, Trace, Composite, View, Write };
@@ -21,12 +23,6 @@ inline constexpr std::array<std::string_view, 5> kPhaseNames = {"load", "trace",
 struct PhaseCost {
   double seconds = 0;
   std::size_t bytes = 0;  // pixels produced in memory; for Write, bytes on disk
-};
-
-/// A = N_g/N of a sphere layer: rays that hit it with the lenses over rays that hit it without.
-struct Amplification {
-  std::string layer;
-  std::optional<double> factor;  // nothing when the layer is not in the frame without lenses
 };
 
 struct FrameReport {

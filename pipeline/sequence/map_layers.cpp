@@ -41,8 +41,10 @@ StMap read_map_of(const Camera& camera, const std::filesystem::path& path) {
 
 /// How far away a surface is as a whole.
 double distance_of(const Surface& surface, const Vec3& camera) {
-  const auto* sphere = std::get_if<Sphere>(&surface);
-  return sphere ? (sphere->centre - camera).length() : std::numeric_limits<double>::infinity();
+  if (const auto* sphere = std::get_if<Sphere>(&surface)) return (sphere->centre - camera).length();
+  if (const auto* ring = std::get_if<Ring>(&surface)) return (ring->centre - camera).length();
+  if (const auto* card = std::get_if<Card>(&surface)) return card->distance;
+  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -57,10 +59,11 @@ std::vector<MapLayer> load_map_layers(const Shot& shot, const Scene& scene,
     layer.map = read_map_of(scene.camera, path);
     layer.look = looks[k];
     layer.distance = distance_of(surface, scene.camera.position);
-    layer.is_sky = std::holds_alternative<LatLong>(surface);
+    layer.surface = surface;
     const Picture& picture = layer.look.texture->picture();
-    const MappedPicture mapped{picture.display_width, picture.display_height,
-                               layer.is_sky || std::holds_alternative<Sphere>(surface), false};
+    const MappedPicture mapped{
+        picture.display_width, picture.display_height,
+        std::holds_alternative<LatLong>(surface) || std::holds_alternative<Sphere>(surface), false};
     MapData data;
     if (const auto data_file = data_file_beside(path)) data = read_map_data(*data_file, layer.map);
     layer.depth = std::move(data.depth);

@@ -44,7 +44,7 @@ TEST(MapComposite, DepthGoesBeforeTheDistanceOfTheWhole) {
 
 TEST(MapComposite, SkiesLieBehindAllElse) {
   MapLayer sky = layer(kBlue, kInfinity);
-  sky.is_sky = true;
+  sky.surface = LatLong{};
   EXPECT_EQ(seen({layer(kRed, kInfinity), sky}), kRed);
   EXPECT_EQ(seen({sky, layer(kRed, kInfinity)}), kRed);
 }
@@ -57,6 +57,7 @@ TEST(MapComposite, CoverageCountsLikeAlpha) {
 
 TEST(MapComposite, LightFallsOnSpheres) {
   MapLayer lit = layer(kRed, 10);
+  lit.surface = Sphere{};
   lit.look.light = sphere_normal_from_st({0.5, 0.5});
   EXPECT_NEAR(seen({lit})[0], 1, 1e-6);
   lit.look.light = -*lit.look.light;

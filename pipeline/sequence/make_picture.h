@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The picture of a frame: composited over the time that the shutter is open, with its stars and the camera's
+// glow, written as EXR and, through the view, for review.
+
+#pragma once
+
+#include "pipeline/sequence/frame_report.h"
+#include "pipeline/sequence/frame_setup.h"
+
+namespace lensplane {
+
+/// Makes the files of the picture that `setup` says are wanted. Throws Failure.
+void make_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
+                  const FrameTasks& tasks, const FrameSetup& setup, FrameReport& report);
+
+/// The amplification that a picture's header keeps: those of a frame that is done already.
+std::vector<Amplification> kept_amplifications(const Shot& shot, int frame);
+
+}  // namespace lensplane
