@@ -47,7 +47,7 @@ inline constexpr double kOnePlace = 4e-15;
 /// front of the camera, moved along its axis to their mass-weighted mean depth; sources beside and behind the
 /// camera do not count there, and without a flat screen each source keeps its own plane.
 /// By `planes` the order of the sources in the scene has no influence: sources that are one body become one,
-/// by the number of one of them, whatever plane they would stand on, and bodies are sorted by their positions.
+/// with the number of one of them, whatever plane they stand on, and bodies are sorted by their positions.
 std::vector<LensPlane> lens_planes(const Scene& scene, Method method);
 
 }  // namespace lensplane

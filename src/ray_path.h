@@ -25,14 +25,14 @@ struct RaySegment {
   int bends = 0;                                            // planes that have bent the ray so far
 };
 
-/// A mass that a ray has passed, as the arrival time needs it.
+/// A mass that a ray has passed, as the arrival time needs it. b is a coordinate: with finite distance light
+/// is captured up to b = 3 sqrt(3) m/n, n being the index at the camera (deflectors.h).
 template <class Number>
 struct Passage {
   std::size_t lens;  // its number in the scene
   double m;          // geometric mass, metres
   double distance;   // metres from the camera to the mass
-  Number b;          // metres from the mass to the ray's line, in coordinates; capture at 3 sqrt(3) m over the
-                     // index n of the medium at the camera (deflectors.h)
+  Number b;          // metres from the mass to the ray's line; see below
   Number alpha;      // angle by which it bent the ray, radians
   Number path;  // metres along the ray from the camera to its closest approach; negative behind the start
 };

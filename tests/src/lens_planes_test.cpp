@@ -156,6 +156,9 @@ TEST(LensPlanes, AnInfiniteMassTakesInTheOthersWhereItIs) {
     ASSERT_EQ(sources.size(), 1U);
     EXPECT_EQ(sources[0].m, kInfinity);
     EXPECT_EQ(sources[0].position, place);
+    const auto two = sources_in_any_order({{kInfinity, {0, 0, -10}}, {kInfinity, place}}, projection);
+    ASSERT_EQ(two.size(), 1U);
+    EXPECT_TRUE(two[0].position == place || two[0].position == Vec3(0, 0, -10));
   }
 }
 
