@@ -158,7 +158,7 @@ std::vector<float> weights_of(const Glow& glow, int longest_side) {
   std::vector<float> weights;
   double below = 0;
   for (int i = 0;; ++i) {
-    const bool last = i % 2 != 0 && width_of(i) > 4.0 * std::max<double>(longest_side, r0);
+    const bool last = i % 2 != 0 && width_of(i) > 16.0 * std::max<double>(longest_side, r0);
     const double edge = std::sqrt(width_of(i) * width_of(i + 1));
     const double up_to_here = last ? 1 : std::erfc(r0 / (std::sqrt(2.0) * edge));
     weights.push_back(static_cast<float>(up_to_here - below));

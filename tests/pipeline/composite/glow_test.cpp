@@ -63,7 +63,7 @@ TEST(Glow, KeepsTheLightThatStaysInTheFrame) {
   // / a^2).
   const double a = kSize / 2.0, r0 = kRadius / std::sqrt(3.0);
   const double inside = 1 - std::atan(r0 * std::sqrt(2 * a * a + r0 * r0) / (a * a)) * 2 / std::acos(-1.0);
-  EXPECT_NEAR(sum / 1000, 1 - 0.4 * (1 - inside), 3e-4);
+  EXPECT_NEAR(sum / 1000, 1 - 0.4 * (1 - inside), 1e-4);
 }
 
 TEST(Glow, ConstantLightStaysConstantFarFromTheEdges) {
@@ -76,6 +76,25 @@ TEST(Glow, ConstantLightStaysConstantFarFromTheEdges) {
   EXPECT_EQ(middle[2], 0);
   EXPECT_EQ(middle[3], 0.75F);
   EXPECT_NEAR(glowing.at(0, 250)[0], 0.5 * 0.9, 0.01);  // at an edge half of the veil is missing
+}
+
+/// Black around a picture changes nothing in it: light that leaves the frame is lost there and nowhere else.
+TEST(Glow, TheEdgeOfTheFrameOnlyCutsOff) {
+  constexpr int kAround = 256;  // a whole number of pixels of all sizes that matter
+  Picture small = point(128, 128, 0, 0);
+  for (int row = 0; row < 128; ++row) small.at(127, row) = {3, 2, 1, 1};
+  Picture large = filled(128 + 2 * kAround, 128 + 2 * kAround, {0, 0, 0, 1});
+  for (int row = 0; row < 128; ++row) {
+    for (int column = 0; column < 128; ++column)
+      large.at(column + kAround, row + kAround) = small.at(column, row);
+  }
+  const Picture a = with_glow(small, {1, 8}), b = with_glow(large, {1, 8});
+  for (int row = 0; row < 128; ++row) {
+    for (int column = 0; column < 128; ++column) {
+      const float within = a.at(column, row)[0], around = b.at(column + kAround, row + kAround)[0];
+      ASSERT_NEAR(within / around, 1, 1e-4) << column << " " << row;
+    }
+  }
 }
 
 TEST(Glow, IsSymmetricWhereverThePointIs) {
