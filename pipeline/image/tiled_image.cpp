@@ -11,6 +11,8 @@
 namespace lensplane {
 namespace {
 
+constexpr std::size_t kMostTilePixels = std::size_t{1} << 20;
+
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) {
   throw Failure(ExitCode::BadInput, fmt::format("{}: cannot be read tile by tile: {}", path, reason));
 }
@@ -46,10 +48,14 @@ TiledImage::TiledImage(const std::filesystem::path& path, std::size_t cache_byte
   if (!cache_->get_imagespec(name, spec)) refuse(path_, cache_->geterror());
   int count = 0;
   cache_->get_image_info(name, 0, 0, OIIO::ustring("miplevels"), OIIO::TypeDesc::INT, &count);
-  if (spec.tile_width == 0 || count < 2) {
+  // A file without tiles is given as one that is a tile as a whole.
+  const std::size_t tile_pixels =
+      static_cast<std::size_t>(spec.tile_width) * static_cast<std::size_t>(spec.tile_height);
+  if (count < 2 || tile_pixels > kMostTilePixels) {
     refuse(path_,
-           fmt::format("{} x {} pixels, but {}; make a file that can by: maketx {} -o FILE.tx", spec.width,
-                       spec.height, spec.tile_width == 0 ? "no tiles" : "no smaller levels", path_));
+           fmt::format("{} x {} pixels, but not both in tiles and in smaller sizes, too; make a file that "
+                       "is so: maketx {} -o FILE.tx",
+                       spec.width, spec.height, path_));
   }
   if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
       spec.height != spec.full_height) {

@@ -11,33 +11,37 @@
 
 namespace lensplane {
 
-/// The pixel filter summed up over a lattice that reaches 4.5 standard deviations and is finer than the
-/// texels.
+/// The pixel filter summed up over a lattice of film positions that reaches 4.5 standard deviations and is
+/// finer than the texels.
 inline Rgba reference_filtered(const Texture& texture, TextureCoordinates st, const Footprint& footprint) {
-  const Picture& picture = texture.picture();
-  const int width = picture.display_width, height = picture.display_height;
-  const Axes axes = axes_of(covariance_in_texels(footprint, width, height));
+  const double width = texture.picture().display_width, height = texture.picture().display_height;
+  const double xx = footprint.ds_dx * width, xy = footprint.ds_dy * width;
+  const double yx = footprint.dt_dx * height, yy = footprint.dt_dy * height;
+  // The lattice is turned so that one of its directions is the film's that sees the longer axis.
+  const double turn = std::atan2(2 * (xx * xy + yx * yy), xx * xx + yx * yx - xy * xy - yy * yy) / 2;
+  const double c = std::cos(turn), s = std::sin(turn);
   constexpr double kReach = 4.5, kTexelsApart = 0.3;
-  const auto steps = [&](double variance) {
-    return std::max(24, static_cast<int>(kReach * footprint.scale * std::sqrt(variance) / kTexelsApart));
+  const double sigma = kPixelSigma * footprint.scale;
+  const auto steps = [&](double texels_per_pixel) {
+    return std::max(24, static_cast<int>(kReach * sigma * texels_per_pixel / kTexelsApart));
   };
-  const int along = steps(axes.major), across = steps(axes.minor);
+  const int along = steps(std::hypot(xx * c + xy * s, yx * c + yy * s));
+  const int across = steps(std::hypot(xy * c - xx * s, yy * c - yx * s));
   std::array<double, 4> sum{};
   double weights = 0;
   for (int j = -across; j <= across; ++j) {
     for (int i = -along; i <= along; ++i) {
       const double a = kReach * i / along, b = kReach * j / across;
       const double weight = std::exp(-(a * a + b * b) / 2);
-      const double major = a * footprint.scale * std::sqrt(axes.major);
-      const double minor = b * footprint.scale * std::sqrt(axes.minor);
-      const double right = major * axes.x - minor * axes.y, down = major * axes.y + minor * axes.x;
-      const Rgba colour = texture.lookup({st.s + right / width, st.t - down / height});
-      for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * static_cast<double>(colour[c]);
+      const double x = sigma * (a * c - b * s), y = sigma * (a * s + b * c);
+      const Rgba colour = texture.lookup({st.s + footprint.ds_dx * x + footprint.ds_dy * y,
+                                          st.t + footprint.dt_dx * x + footprint.dt_dy * y});
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * static_cast<double>(colour[k]);
       weights += weight;
     }
   }
   Rgba mean;
-  for (std::size_t c = 0; c < 4; ++c) mean[c] = static_cast<float>(sum[c] / weights);
+  for (std::size_t k = 0; k < 4; ++k) mean[k] = static_cast<float>(sum[k] / weights);
   return mean;
 }
 

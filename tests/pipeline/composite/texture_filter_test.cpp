@@ -59,11 +59,11 @@ double decibels(const Texture& texture, const Sizes& sizes, int lookups, double 
 TEST(TextureFilter, AgreesWithTheReferenceAtAnySize) {
   for (const Picture& picture : {zone_plate(256), noise(300, 200), checker(128)}) {
     const Texture texture(picture, Wrap::Mirror);
-    EXPECT_GT(decibels(texture, {0.51, 1.0, 1.01}, 400), 55);  // about 1:1
-    EXPECT_GT(decibels(texture, {0.51, 1.05, 4}, 300), 48);    // sheared
-    EXPECT_GT(decibels(texture, {1.05, 1.5, 4}, 300), 45);     // from the close to the elliptical filter
-    EXPECT_GT(decibels(texture, {1.5, 5, 2}, 300), 48);        // minified
-    EXPECT_GT(decibels(texture, {4, 16, 4}, 100), 50);
+    EXPECT_GT(decibels(texture, {0.51, 1.0, 1.01}, 200), 55);  // about 1:1
+    EXPECT_GT(decibels(texture, {0.51, 1.05, 4}, 150), 48);    // sheared
+    EXPECT_GT(decibels(texture, {1.05, 1.5, 4}, 150), 45);     // from the close to the elliptical filter
+    EXPECT_GT(decibels(texture, {1.5, 5, 2}, 150), 48);        // minified
+    EXPECT_GT(decibels(texture, {4, 16, 4}, 50), 50);
   }
 }
 
@@ -72,7 +72,7 @@ TEST(TextureFilter, LongEllipsesStaySharpAcross) {
     const Texture texture(picture, Wrap::Mirror);
     for (const double angle : {0.0, 0.3, kPi / 4, kPi / 2, 2.5}) {
       const Footprint arc = footprint_of(picture, 100, 1, angle), wide = footprint_of(picture, 200, 2, angle);
-      for (const TextureCoordinates st : {TextureCoordinates{0.3, 0.4}, {0.52, 0.7}, {0.5, 0.5}}) {
+      for (const TextureCoordinates st : {TextureCoordinates{0.3, 0.4}, {0.52, 0.7}}) {
         for (const Footprint& footprint : {arc, wide}) {
           const Rgba got = texture.filtered(st, footprint),
                      expected = reference_filtered(texture, st, footprint);
@@ -86,8 +86,8 @@ TEST(TextureFilter, LongEllipsesStaySharpAcross) {
 TEST(TextureFilter, EdgesAreAsTheReferenceSays) {
   for (const Wrap wrap : {Wrap::Black, Wrap::Clamp, Wrap::Mirror, Wrap::Repeat}) {
     const Texture texture(noise(50, 34), wrap);
-    EXPECT_GT(decibels(texture, {0.6, 2, 3}, 300, 0.2), 42) << static_cast<int>(wrap);
-    EXPECT_GT(decibels(texture, {2, 6, 3}, 200, 0.2), 42) << static_cast<int>(wrap);
+    EXPECT_GT(decibels(texture, {0.6, 2, 3}, 150, 0.2), 42) << static_cast<int>(wrap);
+    EXPECT_GT(decibels(texture, {2, 6, 3}, 100, 0.2), 42) << static_cast<int>(wrap);
   }
 }
 
@@ -110,13 +110,30 @@ TEST(TextureFilter, OverscanAndOddSizesKeepTheirPlaceOnEveryLevel) {
   }
 }
 
+TEST(TextureFilter, ItIsAsWideAsThePixelFilter) {
+  // What a Gaussian leaves of a wave tells its variance; the surface between texels adds a sixth.
+  for (const double texels : {1.3, 1.5, 2.0, 2.2, 2.5, 4.0, 4.5, 8.0, 15.0}) {
+    const double sigma = std::sqrt(std::pow(kPixelSigma * texels, 2) + 1.0 / 6);
+    const double waves = std::round(512 / (2 * kPi * sigma)), per_texel = 2 * kPi * waves / 512;
+    const Texture texture(painted(512, 4,
+                                  [&](int column, int) {
+                                    const auto value =
+                                        static_cast<float>(std::cos(per_texel * (column + 0.5)));
+                                    return Rgba{value, value, value, 1};
+                                  }),
+                          Wrap::Repeat);
+    const float got = texture.filtered({0, 0.4}, footprint_of(texture.picture(), texels, texels, 0))[0];
+    EXPECT_NEAR(got, std::exp(-std::pow(per_texel * sigma, 2) / 2), 0.012) << texels;
+  }
+}
+
 TEST(TextureFilter, WhatIsConstantStaysConstant) {
   const Rgba colour{0.3F, 20, 0.007F, 0.75F};
   for (const Wrap wrap : {Wrap::Clamp, Wrap::Mirror, Wrap::Repeat, Wrap::Globe}) {
     const Texture texture(painted(101, 47, [&](int, int) { return colour; }), wrap);
     std::mt19937 random(2);
     std::uniform_real_distribution<double> uniform(-0.5, 1.5), power(-3, 5);
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 500; ++i) {
       const Footprint footprint = footprint_of(texture.picture(), std::pow(10, power(random)),
                                                std::pow(10, power(random)), uniform(random) * 7);
       const Rgba got = texture.filtered({uniform(random), uniform(random)}, footprint);

@@ -60,9 +60,9 @@ std::vector<Lookup> lookups(int count, unsigned seed) {
   return list;
 }
 
-class TiledTexels : public testing::Test {
+class TiledTextures : public testing::Test {
  protected:
-  TiledTexels() { write_tiled(path_, noise(), 16); }
+  TiledTextures() { write_tiled(path_, noise(), 16); }
 
   TiledTexture open(const std::shared_ptr<TileCache>& cache) const {
     return {std::make_shared<const TiledImage>(path_, std::size_t{1} << 20), float_pixels, cache};
@@ -72,7 +72,7 @@ class TiledTexels : public testing::Test {
   std::filesystem::path path_ = folder_ / "noise.tx";
 };
 
-TEST_F(TiledTexels, LookUpWhatIsThereInMemory) {
+TEST_F(TiledTextures, LookUpWhatIsThereInMemory) {
   for (const Wrap wrap : {Wrap::Black, Wrap::Clamp, Wrap::Mirror, Wrap::Repeat, Wrap::Globe}) {
     const auto cache = std::make_shared<TileCache>(kFew);
     const TiledTexture tiled = open(cache);
@@ -88,7 +88,7 @@ TEST_F(TiledTexels, LookUpWhatIsThereInMemory) {
   }
 }
 
-TEST_F(TiledTexels, ServeSeveralThreadsWithinTheBudget) {
+TEST_F(TiledTextures, ServeSeveralThreadsWithinTheBudget) {
   const auto cache = std::make_shared<TileCache>(kFew);
   const Texture texture(open(cache), Wrap::Globe);
   const Texture alone(open(std::make_shared<TileCache>()), Wrap::Globe);
@@ -111,7 +111,7 @@ TEST_F(TiledTexels, ServeSeveralThreadsWithinTheBudget) {
   EXPECT_GT(cache->bytes(), kFew / 2);
 }
 
-TEST_F(TiledTexels, CountWhatIsNoNumber) {
+TEST_F(TiledTextures, CountWhatIsNoNumber) {
   const auto image = std::make_shared<const TiledImage>(path_, std::size_t{1} << 20);
   const TiledTexture tiled(
       image,

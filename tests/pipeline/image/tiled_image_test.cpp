@@ -46,10 +46,11 @@ TEST(TiledImage, WhatHasNoTilesIsRefusedWithTheWayOut) {
   write_png(path, numbered(10, 10), {});
   const Refusal refusal = refusal_of([&] { TiledImage(path, kCacheBytes); });
   EXPECT_EQ(refusal.code, ExitCode::BadInput);
-  EXPECT_EQ(refusal.line, path +
-                              ": cannot be read tile by tile: 10 x 10 pixels, but no tiles; make a file that "
-                              "can by: maketx " +
-                              path + " -o FILE.tx");
+  EXPECT_EQ(refusal.line,
+            path +
+                ": cannot be read tile by tile: 10 x 10 pixels, but not both in tiles and in smaller "
+                "sizes, too; make a file that is so: maketx " +
+                path + " -o FILE.tx");
   EXPECT_THAT(refusal_of([&] { TiledImage(folder / "none.tx", kCacheBytes); }).line,
               HasSubstr("none.tx: cannot be read tile by tile: "));
 }
