@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "src/point_images.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "src/film_area.h"
+#include "src/film_cell.h"
+
+namespace lensplane {
+namespace {
+
+/// Pixels across a cell before it is divided, and cells across a block, which one thread works on.
+constexpr double kCell = 8;
+constexpr int kBlock = 16;
+
+/// Wild cells are divided down to this, in pixels, though no point seems near: their corners do not tell how
+/// far the sky in them reaches. Larger cells than kFaintCell are not left out for being faint.
+constexpr double kWildCell = 0.5, kFaintCell = 4;
+
+/// How much farther from a cell's middle than its corners the sky in it may reach.
+constexpr double kTameReach = 2, kWildReach = 3;
+
+/// An image may be brighter than a cell's five rays; cells fainter than this share of the least magnification
+/// have none.
+constexpr double kFaintShare = 0.1;
+
+struct Sky {
+  const SkyRays& rays;
+  const DirectionIndex& points;
+  const ImageSearch& search;
+  std::vector<FilmPosition> masses;  // on the film
+};
+
+bool holds_mass(const Sky& sky, const FilmCell& cell) {
+  const FilmPosition low = cell.corners.front().film, high = cell.corners.back().film;
+  return std::any_of(sky.masses.begin(), sky.masses.end(), [&](FilmPosition mass) {
+    return mass.x >= low.x && mass.x <= high.x && mass.y >= low.y && mass.y <= high.y;
+  });
+}
+
+void search_from(const SkyRay& ray, FilmPosition film, const Sky& sky, std::size_t point,
+                 const FilmCell& cell, bool regular, std::vector<ImageSearchStart>& starts) {
+  if (!ray.seen) return;
+  starts.push_back({point, sky.points.directions()[point], film, cell.centre.film, cell.size, regular});
+}
+
+/// The searches for a regular cell's points, from where they would be if the map were linear.
+void search_regular(const Sky& sky, const FilmCell& cell, const CellView& view,
+                    std::vector<ImageSearchStart>& starts) {
+  const TangentPlane plane = tangent_plane(view.middle);
+  const FilmJacobian jacobian = jacobian_on(plane, cell.centre);
+  const double reach = cell.size / 2.0 * (1.0 + 2.0 * view.bend) + kSameImage;
+  for (const std::size_t point : sky.points.within(view.middle, view.chord * (1.0 + 2.0 * view.bend))) {
+    const Vec3 away = sky.points.directions()[point] - view.middle;
+    const FilmPosition shift = film_shift(jacobian, plane.u.dot(away), plane.v.dot(away));
+    if (std::max(std::abs(shift.x), std::abs(shift.y)) > reach) continue;
+    const FilmPosition film{cell.centre.film.x + shift.x, cell.centre.film.y + shift.y};
+    search_from(cell.centre, film, sky, point, cell, true, starts);
+  }
+}
+
+/// Adds what the cell's searches start from. True when it has to be divided instead.
+bool search_or_divide(const Sky& sky, const FilmCell& cell, std::vector<ImageSearchStart>& starts) {
+  const CellView view = view_of(cell);
+  const bool mass = holds_mass(sky, cell);
+  if (view.regular && !mass) {
+    search_regular(sky, cell, view, starts);
+    return false;
+  }
+  const double faint = kFaintShare * sky.search.least_magnification;
+  if (cell.size <= kFaintCell && view.largest_magnification < faint) return false;
+  const bool least = cell.size <= kLeastCell;
+  if (!least && (mass || (view.wild && cell.size > kWildCell))) return true;
+  const auto points = sky.points.within(view.middle, view.chord * (view.wild ? kWildReach : kTameReach));
+  if (!least) return !points.empty();
+  for (const std::size_t point : points) {
+    search_from(cell.centre, cell.centre.film, sky, point, cell, false, starts);
+    for (const SkyRay& corner : cell.corners) {
+      search_from(corner, corner.film, sky, point, cell, false, starts);
+    }
+  }
+  return false;
+}
+
+/// The images in a block of cells, whose upper left corner is `corner`; some may be there twice.
+std::vector<PointImage> images_in_block(Sky sky, FilmPosition corner) {
+  const double size = kCell * kBlock;
+  std::erase_if(sky.masses, [&](FilmPosition mass) {
+    return mass.x < corner.x || mass.x > corner.x + size || mass.y < corner.y || mass.y > corner.y + size;
+  });
+  std::vector<ImageSearchStart> starts;
+  std::vector<FilmCell> cells = trace_cells(sky.rays, corner, kCell, kBlock, kBlock);
+  while (!cells.empty()) {
+    std::vector<FilmCell> divided;
+    for (const FilmCell& cell : cells) {
+      if (search_or_divide(sky, cell, starts)) divided.push_back(cell);
+    }
+    cells = trace_quarters(sky.rays, divided);
+  }
+  return find_by_newton(sky.rays, starts);
+}
+
+/// The images that the cells of `area` hold; some may be there twice.
+std::vector<PointImage> images_by_cells(const SkyRays& rays, const FilmArea& area,
+                                        const DirectionIndex& points, const ImageSearch& search) {
+  Sky sky{rays, points, search, {}};
+  for (const Vec3& mass : rays.masses()) {
+    for (const FilmPosition film : films_of_direction(rays.camera(), area, mass)) sky.masses.push_back(film);
+  }
+  const double size = kCell * kBlock;
+  const auto columns = static_cast<std::size_t>(std::ceil((area.right - area.left) / size));
+  const auto rows = static_cast<std::size_t>(std::ceil((area.bottom - area.top) / size));
+  std::vector<std::vector<PointImage>> blocks(columns * rows);
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t k) {
+    blocks[k] = images_in_block(sky, {area.left + static_cast<double>(k % columns) * size,
+                                      area.top + static_cast<double>(k / columns) * size});
+  });
+  std::vector<PointImage> images;
+  for (const std::vector<PointImage>& block : blocks) images.insert(images.end(), block.begin(), block.end());
+  return images;
+}
+
+/// Without masses: every point where the projection puts it.
+std::vector<PointImage> images_by_projection(const Camera& camera, const FilmArea& area,
+                                             const DirectionIndex& points) {
+  std::vector<PointImage> images;
+  for (std::size_t i = 0; i < points.directions().size(); ++i) {
+    const Vec3 direction = camera.axes.local_from_parent(points.directions()[i]);
+    for (const FilmPosition film : films_of_direction(camera, area, direction)) {
+      images.push_back({i, film, 1.0});
+    }
+  }
+  return images;
+}
+
+bool is_same(const PointImage& a, const PointImage& b) {
+  return (a.magnification > 0) == (b.magnification > 0) &&
+         std::hypot(a.film.x - b.film.x, a.film.y - b.film.y) < kSameImage;
+}
+
+/// The images of one point, each once, no brighter together than is allowed.
+void settle(std::span<const PointImage> found, double largest, std::vector<PointImage>& images) {
+  const auto first = static_cast<std::ptrdiff_t>(images.size());
+  double total = 0;
+  for (const PointImage& image : found) {
+    const auto same = [&](const PointImage& other) { return is_same(image, other); };
+    if (std::any_of(images.begin() + first, images.end(), same)) continue;
+    images.push_back(image);
+    total += std::abs(image.magnification);
+  }
+  if (total <= largest) return;
+  for (auto image = images.begin() + first; image != images.end(); ++image) {
+    image->magnification *= largest / total;
+  }
+}
+
+}  // namespace
+
+std::vector<PointImage> find_point_images(const Tracer& tracer, const DirectionIndex& points,
+                                          const ImageSearch& search) {
+  if (points.directions().empty()) return {};
+  const SkyRays rays(tracer);
+  const FilmArea area = film_area(rays.camera(), search.margin_px);
+  std::vector<PointImage> found = rays.masses().empty() ? images_by_projection(rays.camera(), area, points)
+                                                        : images_by_cells(rays, area, points, search);
+  std::erase_if(found, [&](const PointImage& image) {
+    return !area.contains(image.film) || !(std::abs(image.magnification) >= search.least_magnification);
+  });
+  const auto order = [](const PointImage& a) {
+    return std::tuple(a.point, a.film.y, a.film.x, a.magnification);
+  };
+  std::sort(found.begin(), found.end(),
+            [&](const PointImage& a, const PointImage& b) { return order(a) < order(b); });
+  std::vector<PointImage> images;
+  for (auto begin = found.begin(); begin != found.end();) {
+    const auto end = std::find_if(begin, found.end(), [&](const auto& a) { return a.point != begin->point; });
+    settle({begin, end}, search.largest_magnification, images);
+    begin = end;
+  }
+  return images;
+}
+
+}  // namespace lensplane
