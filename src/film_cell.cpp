@@ -86,6 +86,38 @@ CellView view_of(const FilmCell& cell) {
   return view;
 }
 
+CellMap map_of(const FilmCell& cell) {
+  CellMap map{cell.centre.film, cell.centre.direction, tangent_plane(cell.centre.direction), {}, {}, {}};
+  map.first = jacobian_on(map.plane, cell.centre);
+  // What grows from one side to the other: the mean of both edges.
+  const auto growth = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+    const FilmJacobian p =
+        difference(jacobian_on(map.plane, cell.corners[b]), jacobian_on(map.plane, cell.corners[a]));
+    const FilmJacobian q =
+        difference(jacobian_on(map.plane, cell.corners[d]), jacobian_on(map.plane, cell.corners[c]));
+    const double half = 0.5 / cell.size;
+    return FilmJacobian{(p.u_x + q.u_x) * half, (p.u_y + q.u_y) * half, (p.v_x + q.v_x) * half,
+                        (p.v_y + q.v_y) * half};
+  };
+  map.first_x = growth(0, 1, 2, 3);
+  map.first_y = growth(0, 2, 1, 3);
+  return map;
+}
+
+FilmPosition CellMap::film_of(const Vec3& direction) const {
+  constexpr int kRounds = 4;
+  const Vec3 away = direction - middle;
+  const double u = plane.u.dot(away), v = plane.v.dot(away);
+  const double u_xy = 0.5 * (first_x.u_y + first_y.u_x), v_xy = 0.5 * (first_x.v_y + first_y.v_x);
+  FilmPosition shift = film_shift(first, u, v);
+  for (int i = 0; i < kRounds; ++i) {
+    const double xx = 0.5 * shift.x * shift.x, xy = shift.x * shift.y, yy = 0.5 * shift.y * shift.y;
+    shift = film_shift(first, u - (first_x.u_x * xx + u_xy * xy + first_y.u_y * yy),
+                       v - (first_x.v_x * xx + v_xy * xy + first_y.v_y * yy));
+  }
+  return {centre.x + shift.x, centre.y + shift.y};
+}
+
 std::vector<FilmCell> trace_cells(const SkyRays& rays, FilmPosition corner, double size, int columns,
                                   int rows) {
   std::vector<FilmPosition> films;

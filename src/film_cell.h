@@ -42,7 +42,7 @@ FilmJacobian jacobian_on(const TangentPlane& plane, const SkyRay& ray);
 FilmPosition film_shift(const FilmJacobian& jacobian, double u, double v);
 
 /// A cell is regular when A^-1 J differs from 1 by less than this at its corners.
-inline constexpr double kRegularBend = 0.3;
+inline constexpr double kRegularBend = 0.5;
 
 /// The sky seen through a cell.
 struct CellView {
@@ -54,6 +54,20 @@ struct CellView {
   double largest_magnification = 0;  // of the five rays, without sign
 };
 CellView view_of(const FilmCell& cell);
+
+/// The map from a cell to the sky to second order, where all its rays are seen.
+struct CellMap {
+  FilmPosition centre{0, 0};
+  Vec3 middle{0};                     // what is seen at the centre
+  TangentPlane plane{};               // there
+  FilmJacobian first{};               // derivatives at the centre; with a determinant for film_of
+  FilmJacobian first_x{}, first_y{};  // their derivatives by x and y, per pixel
+
+  /// About where in the cell a direction is seen: in a regular cell the error is about the bend squared, in
+  /// cells.
+  FilmPosition film_of(const Vec3& direction) const;
+};
+CellMap map_of(const FilmCell& cell);
 
 /// The square cells of `size` pixels, row by row, whose upper left corner is `corner`.
 std::vector<FilmCell> trace_cells(const SkyRays& rays, FilmPosition corner, double size, int columns,

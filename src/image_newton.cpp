@@ -14,10 +14,6 @@ namespace {
 /// Steps after which a search that has nearly come to rest ends; from then on it only follows noise.
 constexpr int kRegularSteps = 10, kSteps = 30;
 
-/// A search ends after a step this small, in pixels: the next one would be about its square over the cell's
-/// size.
-constexpr double kLastStep = 1e-4, kLastStepAtFolds = 1e-6;
-
 /// Directions are not known better than this, in radians.
 constexpr double kDirectionRounding = 2e-15;
 
@@ -50,7 +46,7 @@ State advance(const SkyRay& ray, int step, Search& search) {
   if (!std::isfinite(length)) return State::Lost;
   const double shorter = std::min(1.0, start.size / length);
   search.film.x += shift.x * shorter, search.film.y += shift.y * shorter;
-  if (length < (start.regular ? kLastStep : kLastStepAtFolds)) return State::Found;
+  if (length < start.last_step) return State::Found;
   if (distance_from_centre(search) > start.size * (start.regular ? 1.0 : 2.0)) return State::Lost;
   if (step + 1 < (start.regular ? kRegularSteps : kSteps)) return State::Searching;
   return length < kSameImage ? State::Found : State::Lost;

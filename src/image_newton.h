@@ -22,6 +22,7 @@ struct ImageSearchStart {
   FilmPosition centre;  // of the cell
   double size;          // of the cell, pixels
   bool regular;         // a single image, well within reach
+  double last_step;     // the search ends with a step of so few pixels: the next one would be smaller by far
 };
 
 /// An image of a point at infinity.
@@ -37,6 +38,9 @@ inline constexpr double kSameImage = 0.01;
 
 /// Error of an image's position in pixels, where rounding of directions (about 1e-15 rad) allows it.
 inline constexpr double kImageError = 1e-6;
+
+/// Relative error of an image's magnification, but near a critical curve.
+inline constexpr double kMagnificationError = 1e-4;
 
 /// The images that searches end at, in the order of the searches. Searches that leave their cell end at none.
 std::vector<PointImage> find_by_newton(const SkyRays& rays, std::span<const ImageSearchStart> starts);

@@ -27,7 +27,10 @@ constexpr double kTameReach = 2, kWildReach = 3;
 
 /// An image may be brighter than a cell's five rays; cells fainter than this share of the least magnification
 /// have none.
-constexpr double kFaintShare = 0.1;
+constexpr double kFaintShare = 0.3;
+
+/// Cells are taken to bend by this at least.
+constexpr double kLeastBend = 1e-3;
 
 struct Sky {
   const SkyRays& rays;
@@ -36,63 +39,72 @@ struct Sky {
   std::vector<FilmPosition> masses;  // on the film
 };
 
-bool holds_mass(const Sky& sky, const FilmCell& cell) {
-  const FilmPosition low = cell.corners.front().film, high = cell.corners.back().film;
+/// Is a mass in the square of the film round `centre` that is `size` pixels wide?
+bool holds_mass(const Sky& sky, FilmPosition centre, double size) {
   return std::any_of(sky.masses.begin(), sky.masses.end(), [&](FilmPosition mass) {
-    return mass.x >= low.x && mass.x <= high.x && mass.y >= low.y && mass.y <= high.y;
+    return std::max(std::abs(mass.x - centre.x), std::abs(mass.y - centre.y)) <= size / 2.0;
   });
 }
 
-void search_from(const SkyRay& ray, FilmPosition film, const Sky& sky, std::size_t point,
-                 const FilmCell& cell, bool regular, std::vector<ImageSearchStart>& starts) {
-  if (!ray.seen) return;
-  starts.push_back({point, sky.points.directions()[point], film, cell.centre.film, cell.size, regular});
+/// Steps after which a regular cell's search ends, in pixels. The next step would be about bend/size times
+/// the square of the last one; the magnification changes by about twice bend/size for every pixel.
+double last_step(const FilmCell& cell, const CellView& view) {
+  const double per_bend = cell.size / std::max(view.bend, kLeastBend);
+  return std::min(std::sqrt(kImageError * per_bend), kMagnificationError / 2.0 * per_bend);
 }
 
-/// The searches for a regular cell's points, from where they would be if the map were linear.
+/// The searches for a regular cell's points, from where they would be if the map were of second order.
 void search_regular(const Sky& sky, const FilmCell& cell, const CellView& view,
                     std::vector<ImageSearchStart>& starts) {
-  const TangentPlane plane = tangent_plane(view.middle);
-  const FilmJacobian jacobian = jacobian_on(plane, cell.centre);
-  const double reach = cell.size / 2.0 * (1.0 + 2.0 * view.bend) + kSameImage;
-  for (const std::size_t point : sky.points.within(view.middle, view.chord * (1.0 + 2.0 * view.bend))) {
-    const Vec3 away = sky.points.directions()[point] - view.middle;
-    const FilmPosition shift = film_shift(jacobian, plane.u.dot(away), plane.v.dot(away));
-    if (std::max(std::abs(shift.x), std::abs(shift.y)) > reach) continue;
-    const FilmPosition film{cell.centre.film.x + shift.x, cell.centre.film.y + shift.y};
-    search_from(cell.centre, film, sky, point, cell, true, starts);
+  const double reach = cell.size / 2.0 * (1.0 + view.bend) + kSameImage, last = last_step(cell, view);
+  const CellMap map = map_of(cell);
+  for (const std::size_t point : sky.points.within(view.middle, view.chord * (1.0 + view.bend))) {
+    const Vec3& direction = sky.points.directions()[point];
+    const FilmPosition film = map.film_of(direction);
+    const double away = std::max(std::abs(film.x - map.centre.x), std::abs(film.y - map.centre.y));
+    if (away <= reach) starts.push_back({point, direction, film, map.centre, cell.size, true, last});
+  }
+}
+
+/// The searches in a cell that is not divided any more: from all its rays.
+void search_least(const Sky& sky, const FilmCell& cell, const std::vector<std::size_t>& points,
+                  std::vector<ImageSearchStart>& starts) {
+  const auto from = [&](const SkyRay& ray, std::size_t point) {
+    if (!ray.seen) return;
+    starts.push_back(
+        {point, sky.points.directions()[point], ray.film, cell.centre.film, cell.size, false, kImageError});
+  };
+  for (const std::size_t point : points) {
+    from(cell.centre, point);
+    for (const SkyRay& corner : cell.corners) from(corner, point);
   }
 }
 
 /// Adds what the cell's searches start from. True when it has to be divided instead.
 bool search_or_divide(const Sky& sky, const FilmCell& cell, std::vector<ImageSearchStart>& starts) {
   const CellView view = view_of(cell);
-  const bool mass = holds_mass(sky, cell);
-  if (view.regular && !mass) {
+  // The rays of a large cell do not show a small mass in it, or just outside.
+  const bool near_mass = holds_mass(sky, cell.centre.film, 2.0 * cell.size);
+  if (view.regular && !near_mass) {
     search_regular(sky, cell, view, starts);
     return false;
   }
   const double faint = kFaintShare * sky.search.least_magnification;
   if (cell.size <= kFaintCell && view.largest_magnification < faint) return false;
   const bool least = cell.size <= kLeastCell;
-  if (!least && (mass || (view.wild && cell.size > kWildCell))) return true;
+  if (!least && view.wild && cell.size > kWildCell) return true;
+  if (!least && near_mass && holds_mass(sky, cell.centre.film, cell.size)) return true;
   const auto points = sky.points.within(view.middle, view.chord * (view.wild ? kWildReach : kTameReach));
   if (!least) return !points.empty();
-  for (const std::size_t point : points) {
-    search_from(cell.centre, cell.centre.film, sky, point, cell, false, starts);
-    for (const SkyRay& corner : cell.corners) {
-      search_from(corner, corner.film, sky, point, cell, false, starts);
-    }
-  }
+  search_least(sky, cell, points, starts);
   return false;
 }
 
 /// The images in a block of cells, whose upper left corner is `corner`; some may be there twice.
 std::vector<PointImage> images_in_block(Sky sky, FilmPosition corner) {
   const double size = kCell * kBlock;
-  std::erase_if(sky.masses, [&](FilmPosition mass) {
-    return mass.x < corner.x || mass.x > corner.x + size || mass.y < corner.y || mass.y > corner.y + size;
-  });
+  const FilmArea block{corner.x - kCell, corner.y - kCell, corner.x + size + kCell, corner.y + size + kCell};
+  std::erase_if(sky.masses, [&](FilmPosition mass) { return !block.contains(mass); });
   std::vector<ImageSearchStart> starts;
   std::vector<FilmCell> cells = trace_cells(sky.rays, corner, kCell, kBlock, kBlock);
   while (!cells.empty()) {
@@ -143,20 +155,22 @@ bool is_same(const PointImage& a, const PointImage& b) {
          std::hypot(a.film.x - b.film.x, a.film.y - b.film.y) < kSameImage;
 }
 
-/// The images of one point, each once, no brighter together than is allowed.
+/// The images of one point, which come from the top, each once, no brighter together than is allowed.
 void settle(std::span<const PointImage> found, double largest, std::vector<PointImage>& images) {
-  const auto first = static_cast<std::ptrdiff_t>(images.size());
+  const std::size_t first = images.size();
   double total = 0;
   for (const PointImage& image : found) {
-    const auto same = [&](const PointImage& other) { return is_same(image, other); };
-    if (std::any_of(images.begin() + first, images.end(), same)) continue;
+    bool again = false;
+    for (std::size_t i = images.size(); i > first && !again; --i) {
+      if (image.film.y - images[i - 1].film.y >= kSameImage) break;
+      again = is_same(image, images[i - 1]);
+    }
+    if (again) continue;
     images.push_back(image);
     total += std::abs(image.magnification);
   }
   if (total <= largest) return;
-  for (auto image = images.begin() + first; image != images.end(); ++image) {
-    image->magnification *= largest / total;
-  }
+  for (std::size_t i = first; i < images.size(); ++i) images[i].magnification *= largest / total;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct PointSpread {
   double sigma_px = 0.6;  // standard deviation in pixels, > 0
 
   /// Pixels from its middle beyond which a dot has no light: ImageSearch::margin_px should be as large.
-  double reach_px() const { return 5.0 * sigma_px + 1.0; }
+  double reach_px() const { return 4.0 * sigma_px + 1.0; }
 };
 
 /// Adds the images' light to the picture; alpha stays as it is. Pixels of the picture are pixels of the film,

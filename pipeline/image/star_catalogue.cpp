@@ -41,7 +41,7 @@ struct Line {
   throw Failure(ExitCode::BadInput, fmt::format("{}:{}: {}", line.path.string(), line.number, what));
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   return fmt::format("'{}{}'", text.substr(0, kShown), text.size() > kShown ? "..." : "");
 }
 
@@ -56,7 +56,7 @@ std::array<std::string_view, kColumns.size()> split(const Line& line) {
     rest.remove_prefix(comma + 1);
   }
   if (count != fields.size()) {
-    refuse(line, fmt::format("{} has {} values; needed: {}", quoted(line.text), count, kHeader));
+    refuse(line, fmt::format("{} has {} values; needed: {}", in_quotes(line.text), count, kHeader));
   }
   return fields;
 }
@@ -67,7 +67,7 @@ double number(const Line& line, std::string_view text, const Column& column) {
   const bool whole = error == std::errc() && end == text.data() + text.size();
   if (!whole || !(value >= column.least && value <= column.largest)) {
     refuse(line, fmt::format("{}: {} is not allowed; allowed: a number from {} to {}", column.name,
-                             quoted(text), column.least, column.largest));
+                             in_quotes(text), column.least, column.largest));
   }
   return value;
 }
@@ -104,7 +104,7 @@ std::vector<Star> read_star_catalogue(const std::filesystem::path& path) {
       stars.push_back(star_from(line));
     } else if (text != kHeader) {
       refuse(line,
-             fmt::format("{} is not the header of a star catalogue; needed: {}", quoted(text), kHeader));
+             fmt::format("{} is not the header of a star catalogue; needed: {}", in_quotes(text), kHeader));
     }
     header = true;
   }
