@@ -196,5 +196,178 @@ TEST(PointImages, OfOneThousandStarsBehindThreeMassesAreThoseOfABruteForceGrid) 
   EXPECT_EQ(without_partner(expected, found, 1.2 * least, 2 * step), 0);
 }
 
+TEST(PointImages, OfASinglePlaneOfMassesAreOneMoreThanTheMassesOrAnEvenNumberMore) {
+  // n point masses on one plane have n + 1, n + 3, ... images, n - 1 more mirrored than not: no light goes
+  // through the masses themselves, or every star would have one image more than is not mirrored.
+  Scene scene = three_masses();
+  for (Lens& lens : scene.lenses) lens.position *= kDistance / -lens.position.z;
+  const std::vector<Vec3> stars = random_stars(scene, 200, 2);
+  scene.camera.overscan = 400;  // no image is off the film
+  const auto images = images_of(scene, stars, {.least_magnification = 1e-7});
+  std::vector<int> count(stars.size()), parity(stars.size());
+  for (const PointImage& image : images) {
+    ++count[image.point];
+    parity[image.point] += image.magnification > 0 ? 1 : -1;
+  }
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    EXPECT_GE(count[i], 4) << i;
+    EXPECT_EQ(count[i] % 2, 0) << i;
+    EXPECT_EQ(parity[i], 1 - 3) << i;
+  }
+}
+
+/// The same scene with a mass so small that it moves nothing: images are found in cells.
+Scene with_nothing(Scene scene) {
+  scene.lenses = {{1e-30, {0.3, 0.2, -1}}};
+  return scene;
+}
+
+std::vector<Vec3> stars_everywhere(int count) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  std::vector<Vec3> stars = {{0, 0, -1}, {0, 1, 0}, {0, -1, 0},
+                             {0, 0, 1},  {1, 0, 0}, Vec3(1e-4, 1, 1e-4).normalized()};
+  for (int i = 0; i < count; ++i)
+    stars.push_back(Vec3(normal(random), normal(random), normal(random)).normalized());
+  return stars;
+}
+
+TEST(PointImages, WithoutMassesAreWhereTheProjectionPutsThemWithOrWithoutCells) {
+  const std::vector<Vec3> stars = stars_everywhere(300);
+  for (const Projection projection : {Projection::Perspective, Projection::LatLong, Projection::Fisheye}) {
+    for (const Vec3& turn : {Vec3(0, 0, 0), Vec3(0.9, 2, 0.3)}) {
+      Scene scene;
+      scene.camera.width = 200;
+      scene.camera.height = 100;
+      scene.camera.overscan = 10;
+      scene.camera.projection = projection;
+      scene.camera.fov_rad = projection == Projection::Fisheye ? 6.2 : 2.0;
+      scene.camera.axes = basis_from_zxy(turn);
+      // Straight along the poles of a lat-long film every x is right.
+      std::vector<Vec3> seen = stars;
+      std::erase_if(seen, [&](const Vec3& star) {
+        return projection == Projection::LatLong && std::abs(scene.camera.axes.y.dot(star)) > 1 - 1e-12;
+      });
+      const auto direct = images_of(scene, seen), by_cells = images_of(with_nothing(scene), seen);
+      ASSERT_EQ(direct.size(), by_cells.size()) << static_cast<int>(projection);
+      EXPECT_GT(direct.size(), 20U);
+      EXPECT_EQ(without_partner(direct, by_cells, 0, 2 * kImageError), 0);
+      for (std::size_t i = 0; i < direct.size(); ++i) {
+        EXPECT_EQ(direct[i].magnification, 1);
+        EXPECT_NEAR(by_cells[i].magnification, 1, 1e-9);
+        const Vec3 looks = direction_at(scene, direct[i].film);
+        EXPECT_LT((looks - seen[direct[i].point]).length(), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(PointImages, BehindAPerspectiveCameraAreNotSeen) {
+  Scene scene = point_lens();
+  const std::vector<Vec3> behind = {{0, 0, 1}, Vec3(1e-6, 0, 1).normalized(), {1, 0, 0}};
+  EXPECT_TRUE(images_of(scene, behind).empty());
+  scene.lenses.clear();
+  EXPECT_TRUE(images_of(scene, behind).empty());
+}
+
+TEST(PointImages, ReachBeyondTheFrameByTheMargin) {
+  for (const bool cells : {false, true}) {
+    Scene scene = point_lens();
+    scene.lenses.clear();
+    const std::vector<Vec3> stars = {direction_at(scene, {-3, 100}), direction_at(scene, {500, 502})};
+    if (cells) scene = with_nothing(scene);
+    EXPECT_EQ(images_of(scene, stars, {.margin_px = 4}).size(), 2U);
+    EXPECT_EQ(images_of(scene, stars, {.margin_px = 2.5}).size(), 1U);
+    scene.camera.overscan = 3;
+    EXPECT_EQ(images_of(scene, stars, {.margin_px = 0.5}).size(), 2U);
+  }
+}
+
+TEST(PointImages, OfADriftingStarKeepItsAmplification) {
+  // 200 places along a line that passes the mass at 0.3 Einstein radii, through cells and blocks.
+  const Scene scene = point_lens();
+  for (int i = 0; i < 200; ++i) {
+    const double x = -200 + 2.017 * i, y = 30;
+    const double expected = amplification(std::hypot(x, y) / 100);
+    const auto images = images_of(scene, {direction_at(scene, {500 + x, 250 + y})});
+    EXPECT_NEAR(total(images), expected, 2e-4 * expected) << i;
+  }
+}
+
+TEST(PointImages, AtAPoleOfALatLongFilmAreAsElsewhere) {
+  Scene scene;
+  scene.camera.width = 400;
+  scene.camera.height = 200;
+  scene.camera.projection = Projection::LatLong;
+  const double einstein = 0.05, u = 0.6;
+  for (const double polar : {0.0, 0.004, 0.03, 1.0}) {
+    const Vec3 mass(std::sin(polar), std::cos(polar), 0);
+    const Vec3 aside(std::cos(polar), -std::sin(polar), 0);
+    scene.lenses = {{einstein * einstein / 4, mass}};
+    const Vec3 star = (mass + u * einstein * aside + 1e-3 * Vec3(0, 0, 1)).normalized();
+    const auto images = images_of(scene, {star}, {.margin_px = 0});
+    ASSERT_EQ(images.size(), 2U) << polar;
+    // Not small angles: u changes by their squares.
+    EXPECT_NEAR(total(images), amplification(u), 0.01 * amplification(u)) << polar;
+  }
+}
+
+TEST(PointImages, RoundABlackHoleAreThoseAlongTheLineThroughIt) {
+  // A star's images lie on the great circle through the hole and the star: here the middle row.
+  Scene scene;
+  scene.camera.width = 1000;
+  scene.camera.height = 400;
+  scene.camera.fov_rad = 1.2;
+  scene.lenses = {{1.0, {0, 0, -30}}};
+  const Tracer tracer(scene,
+                      plan_trace(scene, TraceSettings{Method::Planes, Law::Exact, 0.05, Choice::On, {}}));
+  std::vector<FilmPosition> row;
+  for (double x = 0; x <= 1000; x += 1.0 / 512) row.push_back({x, 200});
+  const std::vector<SkyRay> rays = SkyRays(tracer).trace(row);
+  const double least = 1e-4;
+  int behind = 0;
+  for (const double angle : {0.1, 0.5, 1.0, 2.0, 3.0, -0.3, -2.5}) {
+    const Vec3 star(std::sin(angle), 0, -std::cos(angle));
+    std::vector<FilmPosition> expected;
+    for (std::size_t i = 1; i < rays.size(); ++i) {
+      const SkyRay &a = rays[i - 1], &b = rays[i];
+      if (!a.seen || !b.seen || std::abs(a.magnification) < least) continue;
+      const bool between = (a.direction.cross(star).y >= 0) != (b.direction.cross(star).y >= 0);
+      if (between && a.direction.dot(star) > 0) expected.push_back(a.film);
+    }
+    const auto images =
+        find_point_images(tracer, DirectionIndex({star}), {.margin_px = 0, .least_magnification = least});
+    ASSERT_EQ(images.size(), expected.size()) << angle;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      EXPECT_NEAR(images[i].film.y, 200, 1e-5);
+      EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), [&](FilmPosition film) {
+        return std::abs(film.x - images[i].film.x) < 1.0 / 256;
+      })) << angle;
+    }
+    if (std::abs(angle) > 0.6) behind += static_cast<int>(images.size());
+  }
+  EXPECT_GT(behind, 3);
+}
+
+TEST(PointImages, DoNotDependOnTheNumberOfThreads) {
+  const Scene scene = three_masses();
+  const DirectionIndex stars(random_stars(scene, 500, 4));
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return find_point_images(tracer_of(scene), stars);
+  };
+  const auto one = with(1), two = with(2), seven = with(7);
+  ASSERT_EQ(one.size(), two.size());
+  ASSERT_EQ(one.size(), seven.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    for (const auto* other : {&two, &seven}) {
+      EXPECT_EQ(one[i].point, (*other)[i].point);
+      EXPECT_EQ(one[i].film.x, (*other)[i].film.x);
+      EXPECT_EQ(one[i].film.y, (*other)[i].film.y);
+      EXPECT_EQ(one[i].magnification, (*other)[i].magnification);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lensplane

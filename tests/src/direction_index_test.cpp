@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "src/direction_index.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace lensplane {
+namespace {
+
+Vec3 random_direction(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return Vec3(normal(random), normal(random), normal(random)).normalized();
+}
+
+std::vector<std::size_t> by_brute_force(const std::vector<Vec3>& directions, const Vec3& centre,
+                                        double chord) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    if ((directions[i] - centre).length() <= chord) found.push_back(i);
+  }
+  return found;
+}
+
+TEST(DirectionIndex, FindsWhatIsNear) {
+  std::mt19937 random(1);
+  std::vector<Vec3> sky, field;
+  for (int i = 0; i < 2000; ++i) {
+    sky.push_back(random_direction(random));
+    field.push_back((Vec3(0, 1, 0) + 1e-3 * random_direction(random)).normalized());  // round a pole
+  }
+  for (const std::vector<Vec3>& directions : {sky, field}) {
+    const DirectionIndex index(directions);
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 centre = i % 2 ? directions[static_cast<std::size_t>(i)] : random_direction(random);
+      for (const double chord : {0.0, 1e-4, 1e-3, 0.1, 1.0, 2.0}) {
+        std::vector<std::size_t> found = index.within(centre, chord);
+        std::sort(found.begin(), found.end());
+        EXPECT_EQ(found, by_brute_force(directions, centre, chord));
+      }
+    }
+  }
+}
+
+TEST(DirectionIndex, HoldsNoneAndManyInOnePlace) {
+  EXPECT_TRUE(DirectionIndex({}).within(Vec3(0, 0, -1), 2).empty());
+  const DirectionIndex index(std::vector<Vec3>(100, Vec3(0, 0, -1)));
+  EXPECT_EQ(index.within(Vec3(0, 0, -1), 0).size(), 100U);
+  EXPECT_TRUE(index.within(Vec3(0, 1, 0), 1).empty());
+}
+
+}  // namespace
+}  // namespace lensplane
