@@ -56,7 +56,7 @@ std::array<std::string_view, kColumns.size()> split(const Line& line) {
     rest.remove_prefix(comma + 1);
   }
   if (count != fields.size()) {
-    refuse(line, fmt::format("{} has {} values; needed: {}", in_quotes(line.text), count, kHeader));
+    refuse(line, fmt::format("{} is not a star; needed: {}", in_quotes(line.text), kHeader));
   }
   return fields;
 }
