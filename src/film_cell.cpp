@@ -34,6 +34,23 @@ double bend_at(const FilmJacobian& a, const FilmJacobian& change, const TangentP
                   std::hypot(guess.x - dx, guess.y - dy) / std::hypot(dx, dy));
 }
 
+double beside(const CellView& view, const Vec3& direction) {
+  const Vec3 away = direction - view.middle;
+  return (away - view.along * view.along.dot(away)).length();
+}
+
+void measure_width(const FilmCell& cell, CellView& view) {
+  double farthest = 0;
+  for (const SkyRay& corner : cell.corners) {
+    const Vec3 away = corner.direction - view.middle;
+    if (away.length() <= farthest) continue;
+    farthest = away.length();
+    view.along = away / farthest;
+  }
+  view.width = 0;
+  for (const SkyRay& corner : cell.corners) view.width = std::max(view.width, beside(view, corner.direction));
+}
+
 FilmPosition between(const SkyRay& a, const SkyRay& b) {
   return {(a.film.x + b.film.x) / 2.0, (a.film.y + b.film.y) / 2.0};
 }
@@ -73,6 +90,7 @@ CellView view_of(const FilmCell& cell) {
     view.chord = std::max(view.chord, (corner.direction - view.middle).length());
   }
   if (!all_seen || !(view.chord < kFlat)) return view;
+  measure_width(cell, view);
   const TangentPlane plane = tangent_plane(view.middle);
   const FilmJacobian a = jacobian_on(plane, cell.centre);
   double change = 0;
@@ -84,6 +102,11 @@ CellView view_of(const FilmCell& cell) {
   view.wild = change > kWild * size_of(a);
   view.regular = a.determinant() != 0.0 && view.bend < kRegularBend;
   return view;
+}
+
+bool may_see(const CellView& view, const Vec3& direction, double reach) {
+  constexpr double kBow = 0.25;
+  return beside(view, direction) <= reach * view.width + kBow * view.chord;
 }
 
 CellMap map_of(const FilmCell& cell) {

@@ -48,12 +48,19 @@ inline constexpr double kRegularBend = 0.5;
 struct CellView {
   Vec3 middle{0};                    // of what is seen
   double chord = 2;                  // the corners lie within this of the middle
+  Vec3 along{0};                     // unit vector towards the farthest of them; 0 where all are in one place
+  double width = 2;                  // how far they lie beside it
   bool regular = false;              // see above
   bool wild = true;                  // derivatives change by their own size, or rays are missing
   double bend = 0;                   // regular cells: by how much A^-1 J differs from 1
   double largest_magnification = 0;  // of the five rays, without sign
 };
 CellView view_of(const FilmCell& cell);
+
+/// Whether the cell may see a direction that lies within `reach` times the chord of the middle: whether it
+/// lies no farther beside the corners' line than `reach` times the corners do, and a bow of a quarter of the
+/// chord more.
+bool may_see(const CellView& view, const Vec3& direction, double reach);
 
 /// The map from a cell to the sky to second order, where all its rays are seen.
 struct CellMap {

@@ -29,6 +29,9 @@ constexpr double kTameReach = 2, kWildReach = 3;
 /// have none.
 constexpr double kFaintShare = 0.3;
 
+/// In cells that are not divided any more: the farthest first step of a search, in cells.
+constexpr double kFirstStep = 2;
+
 /// Cells are taken to bend by this at least.
 constexpr double kLeastBend = 1e-3;
 
@@ -66,13 +69,19 @@ void search_regular(const Sky& sky, const FilmCell& cell, const CellView& view,
   }
 }
 
-/// The searches in a cell that is not divided any more: from all its rays.
+/// The searches in a cell that is not divided any more: from each of its rays one step, if that does not lead
+/// far out of the cell. Across a critical curve some do not; those on the image's side of it do.
 void search_least(const Sky& sky, const FilmCell& cell, const std::vector<std::size_t>& points,
                   std::vector<ImageSearchStart>& starts) {
   const auto from = [&](const SkyRay& ray, std::size_t point) {
-    if (!ray.seen) return;
-    starts.push_back(
-        {point, sky.points.directions()[point], ray.film, cell.centre.film, cell.size, false, kImageError});
+    const Vec3& direction = sky.points.directions()[point];
+    if (!ray.seen || !(ray.direction.dot(direction) > 0.0)) return;
+    const TangentPlane plane = tangent_plane(direction);
+    const Vec3 away = direction - ray.direction;
+    const FilmPosition shift = film_shift(jacobian_on(plane, ray), plane.u.dot(away), plane.v.dot(away));
+    if (!(std::hypot(shift.x, shift.y) <= kFirstStep * cell.size)) return;
+    const FilmPosition film{ray.film.x + shift.x, ray.film.y + shift.y};
+    starts.push_back({point, direction, film, cell.centre.film, cell.size, false, kImageError});
   };
   for (const std::size_t point : points) {
     from(cell.centre, point);
@@ -94,7 +103,11 @@ bool search_or_divide(const Sky& sky, const FilmCell& cell, std::vector<ImageSea
   const bool least = cell.size <= kLeastCell;
   if (!least && view.wild && cell.size > kWildCell) return true;
   if (!least && near_mass && holds_mass(sky, cell.centre.film, cell.size)) return true;
-  const auto points = sky.points.within(view.middle, view.chord * (view.wild ? kWildReach : kTameReach));
+  const double within = view.wild ? kWildReach : kTameReach;
+  std::vector<std::size_t> points = sky.points.within(view.middle, view.chord * within);
+  std::erase_if(points, [&](std::size_t point) {
+    return !view.wild && !may_see(view, sky.points.directions()[point], within);
+  });
   if (!least) return !points.empty();
   search_least(sky, cell, points, starts);
   return false;
