@@ -12,17 +12,20 @@ namespace {
 /// Ranges of so few directions are not divided.
 constexpr std::size_t kLeaf = 8;
 
+/// More than what rounding moves a direction.
+constexpr double kRounding = 1e-14;
+
 }  // namespace
 
 DirectionIndex::DirectionIndex(std::vector<Vec3> directions) : directions_(std::move(directions)) {
   nodes_.reserve(directions_.size());
-  for (std::size_t i = 0; i < directions_.size(); ++i) nodes_.push_back({directions_[i], i, 0});
+  for (std::size_t i = 0; i < directions_.size(); ++i) nodes_.push_back({directions_[i], i});
   divide(0, nodes_.size());
 }
 
-std::vector<std::size_t> DirectionIndex::within(const Vec3& centre, double chord) const {
+std::vector<std::size_t> DirectionIndex::within(const SkyPatch& patch) const {
   std::vector<std::size_t> found;
-  collect(0, nodes_.size(), centre, chord, found);
+  collect(0, nodes_.size(), patch, found);
   return found;
 }
 
@@ -42,15 +45,20 @@ void DirectionIndex::divide(std::size_t begin, std::size_t end) {
   std::nth_element(at(begin), at(middle), at(end), [axis](const Node& a, const Node& b) {
     return std::pair(a.direction[axis], a.number) < std::pair(b.direction[axis], b.number);
   });
-  nodes_[middle].axis = axis;
+  Node& node = nodes_[middle];
+  node.middle = (least + most) / 2.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    node.radius = std::max(node.radius, (nodes_[i].direction - node.middle).length());
+  }
+  node.radius *= 1.0 + kRounding;
   divide(begin, middle);
   divide(middle + 1, end);
 }
 
-void DirectionIndex::collect(std::size_t begin, std::size_t end, const Vec3& centre, double chord,
+void DirectionIndex::collect(std::size_t begin, std::size_t end, const SkyPatch& patch,
                              std::vector<std::size_t>& found) const {
   const auto take = [&](const Node& node) {
-    if ((node.direction - centre).length2() <= chord * chord) found.push_back(node.number);
+    if (patch.contains(node.direction)) found.push_back(node.number);
   };
   if (end - begin <= kLeaf) {
     for (std::size_t i = begin; i < end; ++i) take(nodes_[i]);
@@ -58,10 +66,10 @@ void DirectionIndex::collect(std::size_t begin, std::size_t end, const Vec3& cen
   }
   const std::size_t middle = begin + (end - begin) / 2;
   const Node& node = nodes_[middle];
+  if (!patch.reaches(node.middle, node.radius + kRounding)) return;
   take(node);
-  const double beyond = centre[node.axis] - node.direction[node.axis];
-  if (beyond <= chord) collect(begin, middle, centre, chord, found);
-  if (beyond >= -chord) collect(middle + 1, end, centre, chord, found);
+  collect(begin, middle, patch, found);
+  collect(middle + 1, end, patch, found);
 }
 
 }  // namespace lensplane

@@ -34,21 +34,18 @@ double bend_at(const FilmJacobian& a, const FilmJacobian& change, const TangentP
                   std::hypot(guess.x - dx, guess.y - dy) / std::hypot(dx, dy));
 }
 
-double beside(const CellView& view, const Vec3& direction) {
-  const Vec3 away = direction - view.middle;
-  return (away - view.along * view.along.dot(away)).length();
-}
-
-void measure_width(const FilmCell& cell, CellView& view) {
+/// The band of a patch: along the great circle from its middle to the farthest corner.
+void set_band(const FilmCell& cell, SkyPatch& patch) {
   double farthest = 0;
   for (const SkyRay& corner : cell.corners) {
-    const Vec3 away = corner.direction - view.middle;
-    if (away.length() <= farthest) continue;
-    farthest = away.length();
-    view.along = away / farthest;
+    const Vec3 across = patch.middle.cross(corner.direction);
+    if (across.length() <= farthest) continue;
+    farthest = across.length();
+    patch.across = across / farthest;
   }
-  view.width = 0;
-  for (const SkyRay& corner : cell.corners) view.width = std::max(view.width, beside(view, corner.direction));
+  for (const SkyRay& corner : cell.corners) {
+    patch.width = std::max(patch.width, std::abs(patch.across.dot(corner.direction)));
+  }
 }
 
 FilmPosition between(const SkyRay& a, const SkyRay& b) {
@@ -81,17 +78,17 @@ CellView view_of(const FilmCell& cell) {
     if (!middle && corner.seen) middle = &corner;
   }
   if (!middle) return view;
-  view.middle = middle->direction;
+  view.patch = {middle->direction, 0.0, Vec3(0), 0.0};
   view.largest_magnification = std::abs(cell.centre.magnification);
-  view.chord = 0;
   for (const SkyRay& corner : cell.corners) {
     if (!corner.seen) continue;
     view.largest_magnification = std::max(view.largest_magnification, std::abs(corner.magnification));
-    view.chord = std::max(view.chord, (corner.direction - view.middle).length());
+    view.patch.chord = std::max(view.patch.chord, (corner.direction - view.patch.middle).length());
   }
-  if (!all_seen || !(view.chord < kFlat)) return view;
-  measure_width(cell, view);
-  const TangentPlane plane = tangent_plane(view.middle);
+  if (!all_seen) return view;
+  set_band(cell, view.patch);
+  if (!(view.patch.chord < kFlat)) return view;
+  const TangentPlane plane = tangent_plane(view.patch.middle);
   const FilmJacobian a = jacobian_on(plane, cell.centre);
   double change = 0;
   for (const SkyRay& corner : cell.corners) {
@@ -104,9 +101,10 @@ CellView view_of(const FilmCell& cell) {
   return view;
 }
 
-bool may_see(const CellView& view, const Vec3& direction, double reach) {
-  constexpr double kBow = 0.25;
-  return beside(view, direction) <= reach * view.width + kBow * view.chord;
+SkyPatch grown(SkyPatch patch, double reach, double bow) {
+  patch.width = reach * patch.width + bow * patch.chord;
+  patch.chord *= reach;
+  return patch;
 }
 
 CellMap map_of(const FilmCell& cell) {

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "src/direction_index.h"
 #include "src/sky_rays.h"
 
 namespace lensplane {
@@ -46,10 +47,7 @@ inline constexpr double kRegularBend = 0.5;
 
 /// The sky seen through a cell.
 struct CellView {
-  Vec3 middle{0};                    // of what is seen
-  double chord = 2;                  // the corners lie within this of the middle
-  Vec3 along{0};                     // unit vector towards the farthest of them; 0 where all are in one place
-  double width = 2;                  // how far they lie beside it
+  SkyPatch patch;                    // what the corners see; no band where rays are missing
   bool regular = false;              // see above
   bool wild = true;                  // derivatives change by their own size, or rays are missing
   double bend = 0;                   // regular cells: by how much A^-1 J differs from 1
@@ -57,10 +55,8 @@ struct CellView {
 };
 CellView view_of(const FilmCell& cell);
 
-/// Whether the cell may see a direction that lies within `reach` times the chord of the middle: whether it
-/// lies no farther beside the corners' line than `reach` times the corners do, and a bow of a quarter of the
-/// chord more.
-bool may_see(const CellView& view, const Vec3& direction, double reach);
+/// The patch `reach` times as large, and wider by `bow` times the chord: what a cell may see besides.
+SkyPatch grown(SkyPatch patch, double reach, double bow);
 
 /// The map from a cell to the sky to second order, where all its rays are seen.
 struct CellMap {

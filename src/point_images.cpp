@@ -25,6 +25,9 @@ constexpr double kWildCell = 0.5, kFaintCell = 4;
 /// How much farther from a cell's middle than its corners the sky in it may reach.
 constexpr double kTameReach = 2, kWildReach = 3;
 
+/// How far, in chords, the sky in a cell may bow out of the great circle along which it is longest.
+constexpr double kBow = 0.15;
+
 /// An image may be brighter than a cell's five rays; cells fainter than this share of the least magnification
 /// have none.
 constexpr double kFaintShare = 0.3;
@@ -61,7 +64,7 @@ void search_regular(const Sky& sky, const FilmCell& cell, const CellView& view,
                     std::vector<ImageSearchStart>& starts) {
   const double reach = cell.size / 2.0 * (1.0 + view.bend) + kSameImage, last = last_step(cell, view);
   const CellMap map = map_of(cell);
-  for (const std::size_t point : sky.points.within(view.middle, view.chord * (1.0 + view.bend))) {
+  for (const std::size_t point : sky.points.within(grown(view.patch, 1.0 + view.bend, view.bend / 2.0))) {
     const Vec3& direction = sky.points.directions()[point];
     const FilmPosition film = map.film_of(direction);
     const double away = std::max(std::abs(film.x - map.centre.x), std::abs(film.y - map.centre.y));
@@ -103,11 +106,8 @@ bool search_or_divide(const Sky& sky, const FilmCell& cell, std::vector<ImageSea
   const bool least = cell.size <= kLeastCell;
   if (!least && view.wild && cell.size > kWildCell) return true;
   if (!least && near_mass && holds_mass(sky, cell.centre.film, cell.size)) return true;
-  const double within = view.wild ? kWildReach : kTameReach;
-  std::vector<std::size_t> points = sky.points.within(view.middle, view.chord * within);
-  std::erase_if(points, [&](std::size_t point) {
-    return !view.wild && !may_see(view, sky.points.directions()[point], within);
-  });
+  const double reach = view.wild ? kWildReach : kTameReach;
+  const std::vector<std::size_t> points = sky.points.within(grown(view.patch, reach, kBow));
   if (!least) return !points.empty();
   search_least(sky, cell, points, starts);
   return false;

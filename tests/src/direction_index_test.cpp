@@ -16,11 +16,10 @@ Vec3 random_direction(std::mt19937& random) {
   return Vec3(normal(random), normal(random), normal(random)).normalized();
 }
 
-std::vector<std::size_t> by_brute_force(const std::vector<Vec3>& directions, const Vec3& centre,
-                                        double chord) {
+std::vector<std::size_t> by_brute_force(const std::vector<Vec3>& directions, const SkyPatch& patch) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    if ((directions[i] - centre).length() <= chord) found.push_back(i);
+    if (patch.contains(directions[i])) found.push_back(i);
   }
   return found;
 }
@@ -37,19 +36,35 @@ TEST(DirectionIndex, FindsWhatIsNear) {
     for (int i = 0; i < 100; ++i) {
       const Vec3 centre = i % 2 ? directions[static_cast<std::size_t>(i)] : random_direction(random);
       for (const double chord : {0.0, 1e-4, 1e-3, 0.1, 1.0, 2.0}) {
-        std::vector<std::size_t> found = index.within(centre, chord);
-        std::sort(found.begin(), found.end());
-        EXPECT_EQ(found, by_brute_force(directions, centre, chord));
+        const Vec3 across = centre.cross(random_direction(random)).normalized();
+        for (const SkyPatch& patch :
+             {SkyPatch{centre, chord}, SkyPatch{centre, chord, across, 0.1 * chord}}) {
+          std::vector<std::size_t> found = index.within(patch);
+          std::sort(found.begin(), found.end());
+          EXPECT_EQ(found, by_brute_force(directions, patch));
+        }
       }
     }
   }
 }
 
+TEST(DirectionIndex, PatchesAreBandsAlongGreatCircles) {
+  const SkyPatch patch{Vec3(0, 0, -1), 1.5, Vec3(0, 1, 0), 0.1};
+  const auto at = [](double longitude, double latitude) {
+    return Vec3(std::sin(longitude) * std::cos(latitude), std::sin(latitude),
+                -std::cos(longitude) * std::cos(latitude));
+  };
+  EXPECT_TRUE(patch.contains(at(1.6, 0.09)));
+  EXPECT_FALSE(patch.contains(at(1.6, 0.11)));
+  EXPECT_FALSE(patch.contains(at(0, -0.11)));
+  EXPECT_FALSE(patch.contains(at(1.75, 0)));
+}
+
 TEST(DirectionIndex, HoldsNoneAndManyInOnePlace) {
-  EXPECT_TRUE(DirectionIndex({}).within(Vec3(0, 0, -1), 2).empty());
+  EXPECT_TRUE(DirectionIndex({}).within({Vec3(0, 0, -1), 2}).empty());
   const DirectionIndex index(std::vector<Vec3>(100, Vec3(0, 0, -1)));
-  EXPECT_EQ(index.within(Vec3(0, 0, -1), 0).size(), 100U);
-  EXPECT_TRUE(index.within(Vec3(0, 1, 0), 1).empty());
+  EXPECT_EQ(index.within({Vec3(0, 0, -1), 0}).size(), 100U);
+  EXPECT_TRUE(index.within({Vec3(0, 1, 0), 1}).empty());
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ std::vector<PointImage> images_of_grid(const Grid& grid, const DirectionIndex& s
   const auto visit = [&](const SkyRay& a, const SkyRay& b, const SkyRay& c) {
     if (!a.seen || !b.seen || !c.seen || std::abs(a.magnification) < least) return;
     const double reach = std::max((b.direction - a.direction).length(), (c.direction - a.direction).length());
-    for (const std::size_t i : stars.within(a.direction, reach)) {
+    for (const std::size_t i : stars.within({a.direction, reach})) {
       if (holds(a, b, c, stars.directions()[i])) images.push_back({i, a.film, a.magnification});
     }
   };
