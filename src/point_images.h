@@ -24,7 +24,7 @@ namespace lensplane {
 /// Which images are looked for.
 struct ImageSearch {
   double margin_px = 4;                // beyond the film's edge, overscan included
-  double least_magnification = 1e-4;   // fainter images are left out
+  double least_magnification = 1e-3;   // fainter images are left out
   double largest_magnification = 1e4;  // of all images of a point together: more is scaled down to it, since
                                        // on a caustic there is no limit, but stars are no points
 };

@@ -185,16 +185,39 @@ int without_partner(const std::vector<PointImage>& images, const std::vector<Poi
   }));
 }
 
-TEST(PointImages, OfOneThousandStarsBehindThreeMassesAreThoseOfABruteForceGrid) {
-  const Scene scene = three_masses();
+/// Compares the images of `stars` with brute force, both ways.
+void expect_all_images(const Scene& scene, const DirectionIndex& stars, std::size_t at_least) {
   const double step = 0.25, least = 0.01;
-  const DirectionIndex stars(random_stars(scene, 1000, 1));
   const auto expected = images_of_grid(trace_grid(scene, step), stars, least);
   const auto found =
       find_point_images(tracer_of(scene), stars, {.margin_px = 0, .least_magnification = least});
-  EXPECT_GT(found.size(), 1300U);
+  EXPECT_GT(found.size(), at_least);
   EXPECT_EQ(without_partner(found, expected, 1.2 * least, 2 * step), 0);
   EXPECT_EQ(without_partner(expected, found, 1.2 * least, 2 * step), 0);
+}
+
+TEST(PointImages, OfOneThousandStarsBehindThreeMassesAreThoseOfABruteForceGrid) {
+  const Scene scene = three_masses();
+  expect_all_images(scene, DirectionIndex(random_stars(scene, 1000, 1)), 1300);
+}
+
+TEST(PointImages, RoundASmallMassThatALargeOneShowsElsewhereAreAllFound) {
+  Scene scene = three_masses();
+  const double pixel = kEinstein / 100 * kDistance;
+  scene.lenses[1] = {scene.lenses[0].m / 100, {-40 * pixel, 70 * pixel, -2 * kDistance}};
+  scene.lenses.pop_back();
+  expect_all_images(scene, DirectionIndex(random_stars(scene, 3000, 6)), 2000);
+}
+
+TEST(PointImages, OnTheEdgesOfCellsAreFoundOnce) {
+  Scene scene = point_lens();
+  scene.lenses = {{1e-30, {0.3, 0.2, -1}}};  // moves nothing
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> cell(1, 30);
+  std::uniform_real_distribution<double> y(0, 2 * kMiddle);
+  std::vector<Vec3> stars;
+  for (int i = 0; i < 500; ++i) stars.push_back(direction_at(scene, {8.0 * cell(random), y(random)}));
+  EXPECT_EQ(images_of(scene, stars, {.margin_px = 0}).size(), stars.size());
 }
 
 TEST(PointImages, OfASinglePlaneOfMassesAreOneMoreThanTheMassesOrAnEvenNumberMore) {
