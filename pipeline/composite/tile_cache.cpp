@@ -34,19 +34,36 @@ std::shared_ptr<const Picture> TileCache::tile(const TileKey& key, const std::fu
     const std::lock_guard lock(shelf.mutex);
     if (auto tile = find()) return tile;
   }
-  auto made = std::make_shared<const Picture>(make());
+  auto made = std::make_shared<Picture>(make());
+  const std::size_t bytes = size_in_bytes(*made);
   const std::lock_guard lock(shelf.mutex);
   if (auto tile = find()) return tile;
+  std::vector<Rgba> spare;
+  while (shelf.bytes + bytes > bytes_per_shelf_ && !shelf.entries.empty()) spare = let_oldest_go(shelf);
+  if (bytes > bytes_per_shelf_) return made;
+  // Memory that is kept for long is used again here, or tiles made in one thread and freed in another would
+  // leave the allocator with twice the budget.
+  if (spare.capacity() >= made->pixels.size()) {
+    spare.assign(made->pixels.begin(), made->pixels.end());
+    made->pixels.swap(spare);
+  }
   shelf.entries.push_front({key, made});
   shelf.places[key] = shelf.entries.begin();
-  shelf.bytes += size_in_bytes(*made);
-  while (shelf.bytes > bytes_per_shelf_ && !shelf.entries.empty()) {
-    const Entry& oldest = shelf.entries.back();
-    shelf.bytes -= size_in_bytes(*oldest.tile);
-    shelf.places.erase(oldest.key);
-    shelf.entries.pop_back();
-  }
+  shelf.bytes += bytes;
   return made;
+}
+
+std::vector<Rgba> TileCache::let_oldest_go(Shelf& shelf) {
+  Entry& oldest = shelf.entries.back();
+  std::vector<Rgba> spare;
+  shelf.bytes -= size_in_bytes(*oldest.tile);
+  if (oldest.tile.use_count() == 1) {
+    std::atomic_thread_fence(std::memory_order_acquire);  // whoever held it has done with it
+    spare.swap(oldest.tile->pixels);
+  }
+  shelf.places.erase(oldest.key);
+  shelf.entries.pop_back();
+  return spare;
 }
 
 std::size_t TileCache::bytes() const {

@@ -15,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <vector>
 
 #include "pipeline/image/picture.h"
 
@@ -53,7 +54,7 @@ class TileCache {
   };
   struct Entry {
     TileKey key;
-    std::shared_ptr<const Picture> tile;
+    std::shared_ptr<Picture> tile;
   };
   struct Shelf {
     mutable std::mutex mutex;
@@ -61,6 +62,9 @@ class TileCache {
     std::unordered_map<TileKey, std::list<Entry>::iterator, Hash> places;
     std::size_t bytes = 0;
   };
+
+  /// Takes a shelf's last entry away; returns its pixels' memory when nobody uses them.
+  static std::vector<Rgba> let_oldest_go(Shelf& shelf);
 
   std::size_t bytes_per_shelf_;
   std::atomic<int> textures_ = 0;
