@@ -38,6 +38,12 @@ std::string fingerprint_of_picture(const Shot& shot, TextureStore& textures, int
   for (std::size_t k = 0; k < shot.layers.size(); ++k) {
     print.add(textures.digest(k, frame));
     if (const auto light = light_at(shot.layers[k], frame)) print.add("light").add(*light);
+    if (const auto shadow = shadow_at(shot, k, frame)) {
+      print.add("shadow").add(shadow->light).add(shadow->sphere.centre).add(shadow->sphere.radius);
+    }
+    if (const auto* stars = std::get_if<StarsLayer>(&shot.layers[k].kind)) {
+      print.add("stars").add(value_at(stars->exposure, frame)).add(value_at(stars->rotation, frame));
+    }
   }
   return print.digest();
 }

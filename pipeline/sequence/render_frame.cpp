@@ -46,11 +46,13 @@ std::vector<Amplification> amplifications_from_text(const std::string& text) {
 std::vector<SurfaceLook> load_looks(const Shot& shot, const Scene& scene, TextureStore& textures, int frame,
                                     FrameReport& report) {
   std::vector<SurfaceLook> looks;
-  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+  const std::vector<LayerSurface> surfaces = surfaces_of(shot);
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    const std::size_t layer = surfaces[k].layer;
     SurfaceLook look;
-    look.texture = timed(report[Phase::Load].seconds, [&] { return textures.texture(k, frame); });
+    look.texture = timed(report[Phase::Load].seconds, [&] { return textures.texture(layer, frame); });
     report[Phase::Load].bytes += look.texture->picture().pixels.size() * sizeof(Rgba);
-    if (const auto light = light_at(shot.layers[k], frame)) {
+    if (const auto light = light_at(shot.layers[layer], frame)) {
       look.light = std::get<Sphere>(scene.surfaces[k]).axes.local_from_parent(*light);
     }
     looks.push_back(std::move(look));
@@ -70,8 +72,9 @@ std::vector<Amplification> amplifications_of(const Shot& shot, const Scene& scen
   if (spheres.empty()) return {};
   const auto unlensed = count_hits(Tracer(without_lenses, plan_trace(without_lenses, method)));
   std::vector<Amplification> amplifications;
+  const std::vector<LayerSurface> surfaces = surfaces_of(shot);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    Amplification a{shot.layers[spheres[i]].name, std::nullopt};
+    Amplification a{shot.layers[surfaces[spheres[i]].layer].name, std::nullopt};
     if (unlensed[i] > 0) a.factor = static_cast<double>(hits[spheres[i]]) / static_cast<double>(unlensed[i]);
     amplifications.push_back(std::move(a));
   }

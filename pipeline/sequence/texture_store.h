@@ -21,20 +21,27 @@ class TextureStore {
   /// `shot` and `colours` have to outlive the store.
   TextureStore(const Shot& shot, const ColourConfig& colours) : shot_(shot), colours_(colours) {}
 
-  /// The image of a layer (an index into Shot::layers) at a frame. Throws Failure (BadInput).
+  /// The image of a layer (an index into Shot::layers) at a frame. Not of stars: they have none. Throws
+  /// Failure (BadInput).
   std::shared_ptr<const Texture> texture(std::size_t layer, int frame);
 
-  /// A hash of the image's file and of how its colours are read.
+  /// The image of a sphere's night; null when it has none. Throws Failure (BadInput).
+  std::shared_ptr<const Texture> night(std::size_t layer, int frame);
+
+  /// A hash of all the layer's files, images or catalogue, and of how their colours are read.
   std::string digest(std::size_t layer, int frame);
 
  private:
-  ImageEncoding encoding_of(const Layer& layer, const std::string& path) const;
+  std::shared_ptr<const Texture> load(const LayerImage& image, Wrap wrap, int frame);
+  std::string digest_of(const LayerImage& image, Wrap wrap, int frame);
+  std::string digest_of(const LocatedText& file);
+  ImageEncoding encoding_of(const LayerImage& image, const std::string& path) const;
 
   const Shot& shot_;
   const ColourConfig& colours_;
   std::mutex mutex_;
-  std::map<std::size_t, std::shared_ptr<const Texture>> still_textures_;
-  std::map<std::size_t, std::string> still_digests_;
+  std::map<const LayerImage*, std::shared_ptr<const Texture>> still_textures_;
+  std::map<const LocatedText*, std::string> still_digests_;
 };
 
 }  // namespace lensplane

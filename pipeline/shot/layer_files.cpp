@@ -2,31 +2,38 @@
 
 #include "pipeline/shot/layer_files.h"
 
-#include <utility>
-
 namespace lensplane {
+namespace {
 
-std::vector<const LayerImage*> images_of(const Layer& layer) {
+/// Of a Layer or a const Layer.
+template <class AnyLayer>
+auto images_in(AnyLayer& layer) -> std::vector<decltype(&layer.image)> {
   if (std::holds_alternative<StarsLayer>(layer.kind)) return {};
-  const auto* sphere = std::get_if<SphereLayer>(&layer.kind);
+  auto* sphere = std::get_if<SphereLayer>(&layer.kind);
   if (!sphere || !sphere->night) return {&layer.image};
   return {&layer.image, &*sphere->night};
 }
 
-std::vector<const LocatedText*> files_of(const Layer& layer) {
-  if (const auto* stars = std::get_if<StarsLayer>(&layer.kind)) return {&stars->catalogue};
-  std::vector<const LocatedText*> files;
-  for (const LayerImage* image : images_of(layer)) files.push_back(&image->pattern);
+template <class AnyLayer>
+auto files_in(AnyLayer& layer) -> std::vector<decltype(&layer.image.pattern)> {
+  if (auto* stars = std::get_if<StarsLayer>(&layer.kind)) return {&stars->catalogue};
+  std::vector<decltype(&layer.image.pattern)> files;
+  for (auto* image : images_in(layer)) files.push_back(&image->pattern);
   return files;
 }
 
+}  // namespace
+
+std::vector<const LayerImage*> images_of(const Layer& layer) {
+  return images_in(layer);
+}
+
+std::vector<const LocatedText*> files_of(const Layer& layer) {
+  return files_in(layer);
+}
+
 std::vector<LocatedText*> files_of(Layer& layer) {
-  std::vector<LocatedText*> files;
-  // What they point to is the layer's, which may be changed.
-  for (const LocatedText* file : files_of(std::as_const(layer))) {
-    files.push_back(const_cast<LocatedText*>(file));
-  }
-  return files;
+  return files_in(layer);
 }
 
 }  // namespace lensplane

@@ -207,8 +207,9 @@ void check_layers(const Value& layers, const Shot& shot) {
     if (const auto* ring = std::get_if<RingLayer>(&kind)) check_ring(items[k], *ring, shot.layers);
     const auto* plate = std::get_if<PlateLayer>(&kind);
     if (plate && plate->distance && shot.camera.projection != Projection::Perspective) {
-      items[k].find("distance")->refuse(
-          "a plate at a distance faces a perspective camera; allowed for this camera: infinity");
+      items[k]
+          .find("distance")
+          ->refuse("a plate at a distance faces a perspective camera; allowed for this camera: infinity");
     }
   }
 }

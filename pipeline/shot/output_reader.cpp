@@ -42,7 +42,8 @@ std::vector<bool> read_maps(const Value& maps, const OutputLayers& layers) {
       item.refuse(in_quotes(item.text()) + " is a layer of stars, which have no map");
   }
   std::vector<bool> chosen = read_chosen(maps, {layers.names.begin(), layers.names.end()});
-  std::transform(chosen.begin(), chosen.end(), layers.have_maps.begin(), chosen.begin(), std::logical_and<>());
+  std::transform(chosen.begin(), chosen.end(), layers.have_maps.begin(), chosen.begin(),
+                 std::logical_and<>());
   return chosen;
 }
 

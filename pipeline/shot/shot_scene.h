@@ -27,8 +27,9 @@ std::vector<LayerSurface> surfaces_of(const Shot& shot);
 /// For every layer which of these surfaces its map shows: the first crossing. Nothing for stars.
 std::vector<std::optional<std::size_t>> map_surfaces_of(const Shot& shot);
 
-/// The scene at a frame (fractions allowed), with the surfaces of surfaces_of(). Throws Failure (BadShot) when
-/// the camera looks nowhere: at its own position, or straight along `up`. Overscan that is left open is 0.
+/// The scene at a frame (fractions allowed), with the surfaces of surfaces_of(). Throws Failure (BadShot)
+/// when the camera looks nowhere: at its own position, or straight along `up`. Overscan that is left open is
+/// 0.
 Scene scene_at(const Shot& shot, double frame);
 
 /// What the shot asks of the trace at a frame, with the effects that its data files call for.
