@@ -187,9 +187,16 @@ void see_sphere(const Search& search, const Sphere& sphere, LineBatch<Number>& r
 template <class Number>
 void see_disc(const Search& search, const Disc& disc, LineBatch<Number>& rays, TraceBatch& batch) {
   auto& passages = batch.surfaces[search.body].passages;
+  alignas(64) BatchArray sides;
+  end_sides(disc, rays, search.ends, sides);
   for (int i = 0; i < kBatchSize; ++i) {
     DiscPassage& passage = passages[static_cast<std::size_t>(i)];
-    if (passage.crossings > disc.crossing || rays.captured[i] != 0.0) continue;
+    if (passage.side == 0) {
+      passage.side = first_side(disc, value_of(rays.start.get(i)), value_of(rays.direction.get(i)));
+    }
+    // Most rays stay where they are; with finite distance that is known only of the shifted stretch.
+    const bool stays = sides[i] == 0.0 || sides[i] == passage.side;
+    if ((stays && !search.finite()) || passage.crossings > disc.crossing || rays.captured[i] != 0.0) continue;
     const RaySegment<Number> stretch{rays.start.get(i), rays.direction.get(i), Number(search.ends.at[i]),
                                      search.bends};
     const auto crossing = meet_disc(disc, stretch, search.finite(), passage);
