@@ -55,8 +55,7 @@ RaySegment<Number> shifted_chord(const Deflectors& finite, const RayPath<Number>
 template <class Number>
 struct Meeting {
   std::size_t segment;
-  RaySegment<Number> stretch;  // that segment as it truly runs
-  Number way;                  // metres from its start
+  StretchHit<Number> at;
 };
 
 template <class Number>
@@ -69,7 +68,8 @@ std::optional<Meeting<Number>> find_meeting(const Sphere& sphere, const RayPath<
     }
     const Number entry = sphere_entry(stretch.start, stretch.direction, sphere.centre, sphere.radius);
     if (!(value_of(entry) <= value_of(stretch.length)) || !(value_of(entry) < kInfinity)) continue;
-    return Meeting<Number>{i, stretch, entry};
+    const Vector<Number> point = stretch.start + stretch.direction * entry;
+    return Meeting<Number>{i, {point, value_of(stretch.direction), value_of(entry)}};
   }
   return std::nullopt;
 }
@@ -82,7 +82,7 @@ std::optional<Meeting<Number>> find_meeting(const Disc& disc, const RayPath<Numb
     const bool chord = finite && is_chord(i);
     const auto crossing = meet_disc(disc, chord ? shifted_chord(*finite, path, i) : path.segments[i],
                                     chord ? nullptr : finite, passage);
-    if (crossing) return Meeting<Number>{i, crossing->stretch, crossing->way};
+    if (crossing) return Meeting<Number>{i, *crossing};
   }
   return std::nullopt;
 }
@@ -195,14 +195,13 @@ SurfaceHit<Number> meet_body(const Surface& surface, const Camera& camera, FilmP
     hit.bends = path.bends;
     return hit;
   }
-  const auto& [segment, stretch, way] = *meeting;
-  const Vector<Number> point = stretch.start + stretch.direction * way;
-  hit = meet_body_at(surface, camera, film, path.segments.front().direction, point);
-  hit.direction = value_of(stretch.direction);
-  hit.bends = stretch.bends;
+  const auto& [segment, at] = *meeting;
+  hit = meet_body_at(surface, camera, film, path.segments.front().direction, at.point);
+  hit.direction = at.direction;
+  hit.bends = path.segments[segment].bends;
   if (hit.outcome != Outcome::Hit) return hit;
-  hit.distance = value_of(path.lengths[segment]) + value_of(way);
-  hit.delay = (hit.distance - length(value_of(point))) + shapiro_delay(path, hit.distance);
+  hit.distance = value_of(path.lengths[segment]) + at.way;
+  hit.delay = (hit.distance - length(value_of(at.point))) + shapiro_delay(path, hit.distance);
   if (finite) hit.delay += delay_by_masses_ahead(*finite, path, segment, hit.distance);
   return hit;
 }

@@ -30,26 +30,54 @@ RaySegment<double> values_of(const RaySegment<Dual>& stretch) {
   return {value_of(stretch.start), value_of(stretch.direction), value_of(stretch.length), stretch.bends};
 }
 
-/// The side on which a stretch ends; far away that towards which it runs.
+/// The side on which a stretch ends; far away that towards which it runs. One that runs backwards, between
+/// planes whose masses lie the other way round along the ray, is none of the light's way.
 std::int8_t last_side(const Disc& disc, const RaySegment<double>& stretch, const Deflectors* finite,
                       std::int8_t first) {
   if (!(stretch.length < kInfinity)) {
     const double rate = disc.normal.dot(stretch.direction);
     return rate == 0.0 ? first : static_cast<std::int8_t>(rate > 0.0 ? 1 : -1);
   }
+  if (!(stretch.length > 0.0)) return first;
   Vec3 end = stretch.start + stretch.direction * stretch.length;
   if (finite) end += finite_shift(*finite, stretch, stretch.length);
   return side_at(disc, height_over(disc, end));
 }
 
-/// Metres along the stretch to the plane, within the stretch. Its ends bound it as numbers: they have no
+/// Metres along the ray from `point` to the plane.
+template <class Number>
+Number way_to_plane(const Disc& disc, const Vector<Number>& point, const Vector<Number>& direction) {
+  return -height_over(disc, point) / constant<Number>(disc.normal).dot(direction);
+}
+
+/// `way`, which is a place on the stretch, brought within its ends: they bound it as numbers, without
 /// derivatives.
 template <class Number>
-Number way_to_plane(const Disc& disc, const RaySegment<Number>& stretch) {
-  const Number rate = constant<Number>(disc.normal).dot(stretch.direction);
-  const Number way = -height_over(disc, stretch.start) / rate;
-  const double bounded = std::clamp(value_of(way), 0.0, std::max(0.0, value_of(stretch.length)));
-  return way + Number(bounded - value_of(way));
+Number within(const RaySegment<Number>& stretch, const Number& way) {
+  return way + Number(std::clamp(value_of(way), 0.0, value_of(stretch.length)) - value_of(way));
+}
+
+/// Where a stretch goes through the plane.
+template <class Number>
+StretchHit<Number> cross_straight(const Disc& disc, const RaySegment<Number>& stretch) {
+  const Number way = within(stretch, way_to_plane(disc, stretch.start, stretch.direction));
+  return {stretch.start + stretch.direction * way, value_of(stretch.direction), value_of(way)};
+}
+
+/// The same beside the masses: where the light would be at the plane it is shifted; from there it is a little
+/// way to the plane, where the shift is another, and again a much smaller one.
+template <class Number>
+StretchHit<Number> cross_shifted(const Disc& disc, const RaySegment<Number>& stretch,
+                                 const Deflectors& finite) {
+  const auto light_at = [&](const Number& way) {
+    return stretch.start + stretch.direction * way + finite_shift(finite, stretch, way);
+  };
+  Number way = within(stretch, way_to_plane(disc, stretch.start, stretch.direction));
+  way = within(stretch, way + way_to_plane(disc, light_at(way), stretch.direction));
+  const Vector<Number> near = light_at(way);
+  const Number rest = way_to_plane(disc, near, stretch.direction);
+  return {near + stretch.direction * rest, shifted(finite, values_of(stretch), value_of(way)).direction,
+          value_of(way) + value_of(rest)};
 }
 
 }  // namespace
@@ -99,27 +127,23 @@ bool count_crossing(const Disc& disc, const Vec3& point, DiscPassage& passage) {
 }
 
 template <class Number>
-std::optional<DiscCrossing<Number>> meet_disc(const Disc& disc, const RaySegment<Number>& stretch,
-                                              const Deflectors* finite, DiscPassage& passage) {
+std::optional<StretchHit<Number>> meet_disc(const Disc& disc, const RaySegment<Number>& stretch,
+                                            const Deflectors* finite, DiscPassage& passage) {
   const RaySegment<double> seen = values_of(stretch);
   if (passage.side == 0) passage.side = first_side(disc, seen.start, seen.direction);
   const std::int8_t side = last_side(disc, seen, finite, passage.side);
   if (side == passage.side) return std::nullopt;
   passage.side = side;
-  const Number near = way_to_plane(disc, stretch);
-  DiscCrossing<Number> crossing{finite ? shifted(*finite, stretch, near) : stretch, near};
-  if (finite) crossing.way = way_to_plane(disc, crossing.stretch);
-  const Vec3 point =
-      value_of(crossing.stretch.start) + value_of(crossing.stretch.direction) * value_of(crossing.way);
-  if (!count_crossing(disc, point, passage)) return std::nullopt;
+  const auto crossing = finite ? cross_shifted(disc, stretch, *finite) : cross_straight(disc, stretch);
+  if (!count_crossing(disc, value_of(crossing.point), passage)) return std::nullopt;
   return crossing;
 }
 
 template double height_over(const Disc&, const Vec3&);
 template Dual height_over(const Disc&, const DualVec3&);
-template std::optional<DiscCrossing<double>> meet_disc(const Disc&, const RaySegment<double>&,
-                                                       const Deflectors*, DiscPassage&);
-template std::optional<DiscCrossing<Dual>> meet_disc(const Disc&, const RaySegment<Dual>&, const Deflectors*,
-                                                     DiscPassage&);
+template std::optional<StretchHit<double>> meet_disc(const Disc&, const RaySegment<double>&,
+                                                     const Deflectors*, DiscPassage&);
+template std::optional<StretchHit<Dual>> meet_disc(const Disc&, const RaySegment<Dual>&, const Deflectors*,
+                                                   DiscPassage&);
 
 }  // namespace lensplane

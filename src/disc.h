@@ -62,17 +62,10 @@ std::int8_t side_at(const Disc& disc, double height);
 /// Counts a crossing of the plane at `point`. True when it is the one that is met.
 bool count_crossing(const Disc& disc, const Vec3& point, DiscPassage& passage);
 
-/// Where a stretch of a ray meets a disc.
-template <class Number>
-struct DiscCrossing {
-  RaySegment<Number> stretch;  // as it truly runs there
-  Number way;                  // metres from its start
-};
-
 /// Follows a ray along its next stretch. Nothing when it does not meet the disc there. `finite`: the masses
 /// when their finite distances count and the stretch is not a chord, otherwise null; see finite_shift.h.
 template <class Number>
-std::optional<DiscCrossing<Number>> meet_disc(const Disc& disc, const RaySegment<Number>& stretch,
-                                              const Deflectors* finite, DiscPassage& passage);
+std::optional<StretchHit<Number>> meet_disc(const Disc& disc, const RaySegment<Number>& stretch,
+                                            const Deflectors* finite, DiscPassage& passage);
 
 }  // namespace lensplane

@@ -25,6 +25,14 @@ struct RaySegment {
   int bends = 0;                                            // planes that have bent the ray so far
 };
 
+/// Where a stretch of a ray meets a body.
+template <class Number>
+struct StretchHit {
+  Vector<Number> point;  // metres
+  Vec3 direction;        // of the ray there, unit vector
+  double way;            // metres from the stretch's start
+};
+
 /// A mass that a ray has passed, as the arrival time needs it. b is a coordinate: with finite distance light
 /// is captured up to b = 3 sqrt(3) m/n, n being the index at the camera (deflectors.h).
 template <class Number>

@@ -135,52 +135,72 @@ void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k) {
 
 namespace {
 
-/// Writes that ray `i` meets a body `way` metres from the start of `stretch`.
+/// Rays that look for the body number `body` on one of their stretches.
+struct Search {
+  const Sight& sight;
+  std::size_t body;
+  const Ends& ends;
+  int bends;
+  Stretch stretch;
+
+  const Surface& surface() const { return sight.surfaces[body]; }
+  const Deflectors* finite() const { return stretch == Stretch::Straight ? sight.finite : nullptr; }
+};
+
+/// Writes that ray `i` meets the body.
 template <class Number>
-void set_on_body(const Sight& sight, std::size_t k, const RaySegment<Number>& stretch, const Number& way,
-                 int i, LineBatch<Number>& rays, TraceBatch& batch) {
+void set_on_body(const Search& search, const StretchHit<Number>& at, int i, LineBatch<Number>& rays,
+                 TraceBatch& batch) {
+  const Sight& sight = search.sight;
   const FilmPosition film{batch.x[i], batch.y[i]};
   const auto first = direction_from_film<Number>(sight.camera, film);
-  const Vector<Number> point = stretch.start + stretch.direction * way;
-  auto hit = meet_body_at(sight.surfaces[k], sight.camera, film, first, point);
-  hit.direction = value_of(stretch.direction);
-  hit.bends = stretch.bends;
-  if (hit.outcome == Outcome::Hit) hit.distance = rays.path.v[i] + value_of(way);
-  set(sight, hit, i, batch.surfaces[k]);
-  if (sight.effects.delay) rays.irregular[i] = 1.0;
+  auto hit = meet_body_at(search.surface(), sight.camera, film, first, at.point);
+  hit.direction = at.direction;
+  hit.bends = search.bends;
+  if (hit.outcome == Outcome::Hit) hit.distance = rays.path.v[i] + at.way;
+  set(sight, hit, i, batch.surfaces[search.body]);
+  const bool lacks_derivatives = std::is_same_v<Number, Dual> && search.stretch == Stretch::Chord;
+  if (sight.effects.delay || lacks_derivatives) rays.irregular[i] = 1.0;
 }
 
 template <class Number>
-void see_sphere(const Sight& sight, std::size_t k, const Ends& ends, int bends, const Deflectors* finite,
-                LineBatch<Number>& rays, TraceBatch& batch) {
-  const auto& sphere = std::get<Sphere>(sight.surfaces[k]);
+void see_sphere(const Search& search, const Sphere& sphere, LineBatch<Number>& rays, TraceBatch& batch) {
+  const Deflectors* finite = search.finite();
   alignas(64) BatchArray entry;
   VectorLane<Number> start = rays.start, direction = rays.direction;
   for (int i = 0; finite && i < kBatchSize; ++i) {
-    const RaySegment<Number> stretch{start.get(i), direction.get(i), Number(ends.at[i]), bends};
+    const RaySegment<Number> stretch{start.get(i), direction.get(i), Number(search.ends.at[i]), search.bends};
     const RaySegment<Number> near = shifted_to_ball(*finite, stretch, sphere);
     start.set(i, near.start);
     direction.set(i, near.direction);
   }
-  enter_sphere(sphere, start, direction, ends, entry);
-  const SurfaceBatch& surface = batch.surfaces[k];
+  enter_sphere(sphere, start, direction, search.ends, entry);
+  const SurfaceBatch& surface = batch.surfaces[search.body];
   for (int i = 0; i < kBatchSize; ++i) {
     if (!(entry[i] < kInfinity) || surface.outcome[i] == Outcome::Hit || rays.captured[i] != 0.0) continue;
-    const RaySegment<Number> stretch{start.get(i), direction.get(i), Number(ends.at[i]), bends};
-    const Number way = sphere_entry(stretch.start, stretch.direction, sphere.centre, sphere.radius);
-    set_on_body(sight, k, stretch, way, i, rays, batch);
+    const Vector<Number> from = start.get(i), along = direction.get(i);
+    const Number way = sphere_entry(from, along, sphere.centre, sphere.radius);
+    set_on_body(search, StretchHit<Number>{from + along * way, value_of(along), entry[i]}, i, rays, batch);
   }
 }
 
 template <class Number>
-void see_disc(const Sight& sight, std::size_t k, const Disc& disc, const Ends& ends, int bends,
-              const Deflectors* finite, LineBatch<Number>& rays, TraceBatch& batch) {
+void see_disc(const Search& search, const Disc& disc, LineBatch<Number>& rays, TraceBatch& batch) {
+  auto& passages = batch.surfaces[search.body].passages;
+  alignas(64) BatchArray sides;
+  end_sides(disc, rays, search.ends, sides);
   for (int i = 0; i < kBatchSize; ++i) {
-    DiscPassage& passage = batch.surfaces[k].passages[i];
-    if (passage.crossings > disc.crossing || rays.captured[i] != 0.0) continue;
-    const RaySegment<Number> stretch{rays.start.get(i), rays.direction.get(i), Number(ends.at[i]), bends};
-    const auto crossing = meet_disc(disc, stretch, finite, passage);
-    if (crossing) set_on_body(sight, k, crossing->stretch, crossing->way, i, rays, batch);
+    DiscPassage& passage = passages[static_cast<std::size_t>(i)];
+    if (passage.side == 0) {
+      passage.side = first_side(disc, value_of(rays.start.get(i)), value_of(rays.direction.get(i)));
+    }
+    // Most rays stay where they are; with finite distance that is known only of the shifted stretch.
+    const bool stays = sides[i] == 0.0 || sides[i] == passage.side;
+    if ((stays && !search.finite()) || passage.crossings > disc.crossing || rays.captured[i] != 0.0) continue;
+    const RaySegment<Number> stretch{rays.start.get(i), rays.direction.get(i), Number(search.ends.at[i]),
+                                     search.bends};
+    const auto crossing = meet_disc(disc, stretch, search.finite(), passage);
+    if (crossing) set_on_body(search, *crossing, i, rays, batch);
   }
 }
 
@@ -189,12 +209,12 @@ void see_disc(const Sight& sight, std::size_t k, const Disc& disc, const Ends& e
 template <class Number>
 void see_bodies(const Sight& sight, const Ends& ends, int bends, Stretch stretch, LineBatch<Number>& rays,
                 TraceBatch& batch) {
-  const Deflectors* finite = stretch == Stretch::Straight ? sight.finite : nullptr;
   for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
-    if (std::holds_alternative<Sphere>(sight.surfaces[k])) {
-      see_sphere(sight, k, ends, bends, finite, rays, batch);
+    const Search search{sight, k, ends, bends, stretch};
+    if (const auto* sphere = std::get_if<Sphere>(&sight.surfaces[k])) {
+      see_sphere(search, *sphere, rays, batch);
     } else if (const auto disc = disc_of(sight.surfaces[k])) {
-      see_disc(sight, k, *disc, ends, bends, finite, rays, batch);
+      see_disc(search, *disc, rays, batch);
     }
   }
 }

@@ -45,8 +45,10 @@ void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k);
 /// A stretch of a ray between planes, or a chord of its way round the masses of one.
 enum class Stretch { Straight, Chord };
 
-/// Lets the rays meet the bodies on their present stretch. Rays whose arrival time is asked for are marked
-/// irregular where they hit: a batch does not keep the masses that they passed.
+/// Lets the rays meet the bodies on their present stretch. Rays for which that does not do are marked
+/// irregular where they hit: those whose arrival time is asked for, because a batch does not keep the masses
+/// that they passed, and those with derivatives that hit on a chord, because a batch does not keep the
+/// derivatives along a stretch of where it starts.
 template <class Number>
 void see_bodies(const Sight& sight, const Ends& ends, int bends, Stretch stretch, LineBatch<Number>& rays,
                 TraceBatch& batch);

@@ -52,6 +52,27 @@ LENSPLANE_KERNEL void enter_sphere(const Sphere& sphere, const VectorLane<Number
   }
 }
 
+template <class Number>
+LENSPLANE_KERNEL void end_sides(const Disc& disc, const LineBatch<Number>& rays, const Ends& ends,
+                                BatchArray& sides) {
+  const Vec3 n = disc.normal, centre = disc.centre;
+  const double tolerance = disc.tolerance;
+#pragma GCC ivdep
+  for (int i = 0; i < kBatchSize; ++i) {
+    const double dx = rays.direction.x.v[i], dy = rays.direction.y.v[i], dz = rays.direction.z.v[i];
+    const bool leaves = !(ends.at[i] < std::numeric_limits<double>::infinity());
+    const double length = leaves ? 0.0 : ends.at[i];
+    const double rate = n.x * dx + n.y * dy + n.z * dz;
+    const double height = n.x * (rays.start.x.v[i] + dx * length - centre.x) +
+                          n.y * (rays.start.y.v[i] + dy * length - centre.y) +
+                          n.z * (rays.start.z.v[i] + dz * length - centre.z);
+    const double near = height > tolerance ? 1.0 : -1.0;
+    const double far = rate > 0.0 ? 1.0 : rate < 0.0 ? -1.0 : 0.0;
+    const double forward = length > 0.0 ? near : 0.0;
+    sides[i] = leaves ? far : forward;
+  }
+}
+
 namespace {
 
 /// Where a kernel writes (s, t) and what comes with it.
@@ -130,6 +151,8 @@ template void enter_sphere(const Sphere&, const VectorLane<double>&, const Vecto
                            BatchArray&);
 template void enter_sphere(const Sphere&, const VectorLane<Dual>&, const VectorLane<Dual>&, const Ends&,
                            BatchArray&);
+template void end_sides(const Disc&, const LineBatch<double>&, const Ends&, BatchArray&);
+template void end_sides(const Disc&, const LineBatch<Dual>&, const Ends&, BatchArray&);
 template void meet_plate(const Camera&, double, const BatchArray&, const BatchArray&,
                          const LineBatch<double>&, SurfaceBatch&);
 template void meet_plate(const Camera&, double, const BatchArray&, const BatchArray&, const LineBatch<Dual>&,

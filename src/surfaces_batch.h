@@ -50,6 +50,11 @@ template <class Number>
 void enter_sphere(const Sphere& sphere, const VectorLane<Number>& start, const VectorLane<Number>& direction,
                   const Ends& ends, BatchArray& entry);
 
+/// For each ray the side of a disc's plane on which its stretch ends, bit for bit as meet_disc() finds it
+/// without finite distance; 0 where it stays on the side on which it began.
+template <class Number>
+void end_sides(const Disc& disc, const LineBatch<Number>& rays, const Ends& ends, BatchArray& sides);
+
 /// (s, t) of a perspective camera's (`slope`: its slope_per_pixel()) plate at infinity for rays that left
 /// through (x[i], y[i]) and were bent, outcomes, and with Dual numbers Jacobian and magnification into
 /// `surface.passes`.

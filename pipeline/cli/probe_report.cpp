@@ -10,6 +10,7 @@
 #include "pipeline/cli/plan_text.h"
 #include "pipeline/cli/table.h"
 #include "pipeline/image/version.h"
+#include "pipeline/shot/shot_scene.h"
 #include "src/constants.h"
 #include "src/plan_words.h"
 
@@ -61,8 +62,12 @@ std::string crossing_table(const Shot& shot, const Probe& probe) {
   return "\n" + text_from_rows(rows);
 }
 
-std::string surface_table(const std::string& layer, const ProbedSurface& surface) {
-  const std::string head = fmt::format("\nlayer {}: {}\n", layer, name_of(surface.outcome));
+/// Of further crossings of a layer only those that there are.
+std::string surface_table(const Shot& shot, const LayerSurface& of, const ProbedSurface& surface) {
+  if (of.crossing > 0 && surface.outcome != Outcome::Hit) return "";
+  const std::string again = of.crossing > 0 ? fmt::format(", crossing {}", of.crossing + 1) : "";
+  const std::string head =
+      fmt::format("\nlayer {}{}: {}\n", shot.layers[of.layer].name, again, name_of(surface.outcome));
   if (surface.outcome != Outcome::Hit) return head;
   const std::string distance = std::isfinite(surface.distance) ? number(surface.distance) + " m" : "infinite";
   return head + text_from_rows({{"s, t", number(surface.st.s) + ", " + number(surface.st.t)},
@@ -90,8 +95,9 @@ Json json_from_crossing(const Shot& shot, const ProbedCrossing& crossing) {
           {"alpha_deg", crossing.alpha * kDegrees}};
 }
 
-Json json_from_surface(const std::string& layer, const ProbedSurface& surface) {
-  return {{"layer", layer},
+Json json_from_surface(const Shot& shot, const LayerSurface& of, const ProbedSurface& surface) {
+  return {{"layer", shot.layers[of.layer].name},
+          {"crossing", of.crossing + 1},
           {"outcome", name_of(surface.outcome)},
           {"s", surface.st.s},
           {"t", surface.st.t},
@@ -118,8 +124,9 @@ std::string text_from_probe(const Shot& shot, const ProbedFrame& probed) {
   if (probe.seen && probe.recipe < probed.plan.recipes.size())
     rows.push_back({"lenses by their laws", laws_of(probed.plan.recipes[probe.recipe])});
   text += text_from_rows(rows) + crossing_table(shot, probe);
+  const std::vector<LayerSurface> surfaces = surfaces_of(shot);
   for (std::size_t i = 0; i < probe.surfaces.size(); ++i)
-    text += surface_table(shot.layers[i].name, probe.surfaces[i]);
+    text += surface_table(shot, surfaces[i], probe.surfaces[i]);
   return text;
 }
 
@@ -141,8 +148,9 @@ std::string json_from_probe(const Shot& shot, const ProbedFrame& probed) {
                {"layers", Json::array()}};
   for (const ProbedCrossing& crossing : probe.crossings)
     json["crossings"].push_back(json_from_crossing(shot, crossing));
+  const std::vector<LayerSurface> surfaces = surfaces_of(shot);
   for (std::size_t i = 0; i < probe.surfaces.size(); ++i)
-    json["layers"].push_back(json_from_surface(shot.layers[i].name, probe.surfaces[i]));
+    json["layers"].push_back(json_from_surface(shot, surfaces[i], probe.surfaces[i]));
   return json.dump(2) + "\n";
 }
 

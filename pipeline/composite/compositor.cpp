@@ -166,7 +166,7 @@ class TileTaker {
         pixels.size() * each,
         [&](std::size_t n) {
           const EdgePixel& pixel = *pixels[n / each];
-          const SampleOffset offset = sample_offsets()[number(n)];
+          const SampleOffset offset = sample_offsets()[static_cast<std::size_t>(sampling_.first) + number(n)];
           const FilmPosition centre = film(pixel.column, pixel.row);
           return FilmPosition{centre.x + offset.x, centre.y + offset.y};
         },
@@ -205,18 +205,6 @@ class TileTaker {
   TileCounts counts_;
 };
 
-Picture blank_picture(const Camera& camera) {
-  Picture picture{camera.full_width(),
-                  camera.full_height(),
-                  -camera.overscan,
-                  -camera.overscan,
-                  camera.width,
-                  camera.height,
-                  {}};
-  picture.pixels.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-  return picture;
-}
-
 }  // namespace
 
 float seen_brightness(float light) {
@@ -244,6 +232,34 @@ Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks,
     result.refined += of_tile.refined;
   }
   return result;
+}
+
+Picture blank_picture(const Camera& camera) {
+  Picture picture{camera.full_width(),
+                  camera.full_height(),
+                  -camera.overscan,
+                  -camera.overscan,
+                  camera.width,
+                  camera.height,
+                  {}};
+  picture.pixels.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+  return picture;
+}
+
+void add(const Composite& other, Composite& sum) {
+  for (std::size_t i = 0; i < sum.picture.pixels.size(); ++i) {
+    for (std::size_t c = 0; c < 4; ++c) sum.picture.pixels[i][c] += other.picture.pixels[i][c];
+  }
+  for (std::size_t k = 0; k < sum.hits.size(); ++k) sum.hits[k] += other.hits[k];
+  sum.rays += other.rays;
+  sum.refined += other.refined;
+}
+
+void scale(double by, Composite& composite) {
+  for (Rgba& pixel : composite.picture.pixels) {
+    for (float& channel : pixel) channel *= static_cast<float>(by);
+  }
+  for (double& hits : composite.hits) hits *= by;
 }
 
 std::vector<double> covered_pixels(const Tracer& tracer, const Sampling& sampling) {

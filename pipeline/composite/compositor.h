@@ -35,6 +35,14 @@ float seen_brightness(float light);
 /// picture does not depend on the number of threads.
 Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling);
 
+/// Adds all of `other`, which has the same windows and surfaces, to `sum`; multiplies pictures and hits. The
+/// mean of several is a picture taken over time.
+void add(const Composite& other, Composite& sum);
+void scale(double by, Composite& composite);
+
+/// Transparent black, overscan included.
+Picture blank_picture(const Camera& camera);
+
 /// Composite::hits without a picture.
 std::vector<double> covered_pixels(const Tracer& tracer, const Sampling& sampling);
 

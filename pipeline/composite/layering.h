@@ -37,8 +37,8 @@ SeenPoint seen_point(const SurfaceBatch& surface, std::size_t i);
 /// What a surface of the scene looks like.
 struct SurfaceLook {
   std::shared_ptr<const Texture> texture;
-  std::optional<Vec3> light = {};  // unit vector towards the light in the surface's own axes: spheres are shaded
-                              // by Lambert's law, rings lie in the shadow of `caster`
+  std::optional<Vec3> light = {};  // unit vector towards the light in the surface's own axes: spheres are
+                                   // shaded by Lambert's law, rings lie in the shadow of `caster`
   std::shared_ptr<const Texture> night = {};  // spheres: what shines where the light does not reach
   std::optional<ShadowCaster> caster = {};    // rings
 };

@@ -17,6 +17,7 @@ namespace lensplane {
 struct Sampling {
   int max = 64;              // rays a pixel: 1, 4, 16 or 64
   double threshold = 0.004;  // of the standard error, as seen; see seen_brightness()
+  int first = 0;  // the first of the points that is used: a multiple of max, less than kMostSamples
 };
 
 inline constexpr int kMostSamples = 64;
@@ -33,7 +34,8 @@ struct SampleOffset {
   double x, y;
 };
 
-/// The points; a power of four from the beginning is a pattern of its own.
+/// The points; so many of them as a power of four are a pattern of their own, from the beginning and after
+/// any multiple of their number.
 const std::array<SampleOffset, kMostSamples>& sample_offsets();
 
 }  // namespace lensplane

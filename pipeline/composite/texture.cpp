@@ -59,4 +59,9 @@ const Picture& Texture::picture() const {
   return std::get<TiledTexture>(source_).windows();
 }
 
+std::int64_t Texture::not_numbers() const {
+  if (const auto* pyramid = std::get_if<Pyramid>(&source_)) return pyramid->pictures.front().not_numbers;
+  return std::get<TiledTexture>(source_).not_numbers();
+}
+
 }  // namespace lensplane

@@ -32,6 +32,9 @@ class Texture {
   /// breaks.
   Rgba filtered(TextureCoordinates st, const Footprint& footprint) const;
 
+  /// Texels that were no numbers; of a tiled texture among those that have been read.
+  std::int64_t not_numbers() const;
+
   /// The picture; of a tiled texture its windows, without pixels.
   const Picture& picture() const;
 

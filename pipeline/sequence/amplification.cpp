@@ -8,27 +8,48 @@
 #include <sstream>
 
 #include "pipeline/composite/compositor.h"
+#include "pipeline/sequence/shutter.h"
+#include "pipeline/shot/shot_scene.h"
 
 namespace lensplane {
 
-std::vector<Amplification> amplifications_of(const Shot& shot, const Scene& scene, Method method,
-                                             const Sampling& sampling, const std::vector<double>& covered) {
-  Scene without_lenses{scene.camera, {}, {}};
+namespace {
+
+/// Pixels that the spheres of the shot cover at a moment when no light is bent, in the order of `spheres`.
+std::vector<double> covered_without_lenses(const Shot& shot, const Moment& moment,
+                                           const std::vector<std::size_t>& spheres) {
+  Scene scene = scene_at(shot, moment.time);
+  scene.lenses.clear();
+  std::vector<Surface> surfaces;
+  for (const std::size_t k : spheres) surfaces.push_back(scene.surfaces[k]);
+  scene.surfaces = std::move(surfaces);
+  TraceSettings settings = trace_at(shot, moment.time);
+  settings.effects = {};
+  settings.effects.jacobian = true;
+  return covered_pixels(Tracer(scene, plan_trace(scene, settings)), moment.sampling);
+}
+
+}  // namespace
+
+std::vector<Amplification> amplifications_of(const Shot& shot, int frame,
+                                             const std::vector<double>& covered) {
+  const std::vector<LayerSurface> surfaces = surfaces_of(shot);
   std::vector<std::size_t> spheres;
-  for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
-    if (!std::holds_alternative<Sphere>(scene.surfaces[k])) continue;
-    without_lenses.surfaces.push_back(scene.surfaces[k]);
-    spheres.push_back(k);
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    if (std::holds_alternative<SphereLayer>(shot.layers[surfaces[k].layer].kind)) spheres.push_back(k);
   }
   if (spheres.empty()) return {};
-  TraceSettings settings;
-  settings.method = method;
-  settings.effects.jacobian = true;
-  const auto unlensed =
-      covered_pixels(Tracer(without_lenses, plan_trace(without_lenses, settings)), sampling);
+  std::vector<double> unlensed(spheres.size(), 0.0);
+  const std::vector<Moment> moments = moments_of(shot, frame);
+  for (const Moment& moment : moments) {
+    const auto pixels = covered_without_lenses(shot, moment, spheres);
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      unlensed[i] += pixels[i] / static_cast<double>(moments.size());
+    }
+  }
   std::vector<Amplification> amplifications;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    Amplification a{shot.layers[spheres[i]].name, std::nullopt};
+    Amplification a{shot.layers[surfaces[spheres[i]].layer].name, std::nullopt};
     if (unlensed[i] > 0) a.factor = covered[spheres[i]] / unlensed[i];
     amplifications.push_back(std::move(a));
   }

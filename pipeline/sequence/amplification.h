@@ -9,10 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/composite/sample_pattern.h"
 #include "pipeline/shot/shot.h"
-#include "src/method.h"
-#include "src/scene.h"
 
 namespace lensplane {
 
@@ -22,9 +19,9 @@ struct Amplification {
   std::optional<double> factor;  // nothing when the layer is not in the frame without lenses
 };
 
-/// Those of all spheres; `covered`: pixels that each surface of the scene covers with the lenses.
-std::vector<Amplification> amplifications_of(const Shot& shot, const Scene& scene, Method method,
-                                             const Sampling& sampling, const std::vector<double>& covered);
+/// Those of all spheres at a frame, the mean over the time that the shutter is open of both areas. `covered`:
+/// pixels that each surface of the scene covers with the lenses.
+std::vector<Amplification> amplifications_of(const Shot& shot, int frame, const std::vector<double>& covered);
 
 /// "earth 4.46 moon -", and back.
 std::string text_from_amplifications(const std::vector<Amplification>& amplifications);

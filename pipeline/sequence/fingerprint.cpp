@@ -25,6 +25,13 @@ void add_scene(Fingerprint& print, const Scene& scene) {
     if (const auto* sphere = std::get_if<Sphere>(&surface)) {
       print.add("sphere").add(sphere->centre).add(sphere->radius).add(sphere->axes);
     }
+    if (const auto* ring = std::get_if<Ring>(&surface)) {
+      print.add("ring").add(ring->centre).add(ring->axes).add(ring->inner).add(ring->outer);
+      print.add(ring->crossing);
+    }
+    if (const auto* card = std::get_if<Card>(&surface)) {
+      print.add("card").add(card->distance).add(card->crossing);
+    }
   }
 }
 

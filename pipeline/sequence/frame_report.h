@@ -25,6 +25,12 @@ struct PhaseCost {
   std::size_t bytes = 0;  // pixels produced in memory; for Write, bytes on disk
 };
 
+/// Pixels of a layer's images that were NaN or infinite, and are black now.
+struct ReplacedPixels {
+  std::string layer;
+  std::int64_t count;
+};
+
 struct FrameReport {
   int frame = 0;
   bool already_done = false;
@@ -32,6 +38,7 @@ struct FrameReport {
   std::int64_t rays = 0;  // film positions traced through the lenses
   std::array<PhaseCost, kPhaseNames.size()> phases{};
   std::vector<Amplification> amplifications;
+  std::vector<ReplacedPixels> replaced;
 
   PhaseCost& operator[](Phase phase) { return phases[static_cast<std::size_t>(phase)]; }
   const PhaseCost& operator[](Phase phase) const { return phases[static_cast<std::size_t>(phase)]; }

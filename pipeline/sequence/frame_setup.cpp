@@ -8,6 +8,7 @@
 #include "pipeline/sequence/output_paths.h"
 #include "pipeline/sequence/shot_colours.h"
 #include "pipeline/sequence/shot_glow.h"
+#include "pipeline/sequence/shutter.h"
 #include "pipeline/shot/shot_scene.h"
 #include "src/plan_words.h"
 
@@ -33,16 +34,33 @@ Fingerprint fingerprint_of_data(const Shot& shot, const ColourConfig& colours, c
   return print;
 }
 
+/// What the picture shows at a moment, but for its images.
+void add_moment(const Shot& shot, const Moment& moment, Fingerprint& print) {
+  const double time = moment.time;
+  const Scene scene = scene_at(shot, time);
+  TraceSettings settings = trace_at(shot, time);
+  settings.effects = {};
+  print.add(fingerprint_of_trace(scene, plan_trace(scene, settings)).digest());
+  print.add(moment.sampling.max).add(moment.sampling.threshold).add(moment.sampling.first);
+  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+    if (const auto light = light_at(shot.layers[k], time)) print.add("light").add(*light);
+    if (const auto shadow = shadow_at(shot, k, time)) {
+      print.add("shadow").add(shadow->light).add(shadow->sphere.centre).add(shadow->sphere.radius);
+    }
+    if (const auto* stars = std::get_if<StarsLayer>(&shot.layers[k].kind)) {
+      print.add("stars").add(value_at(stars->exposure, time)).add(value_at(stars->rotation, time));
+    }
+  }
+}
+
 std::string fingerprint_of_picture(const Shot& shot, TextureStore& textures, int frame,
                                    const FrameSetup& setup) {
   Fingerprint print;
   print.add(setup.map_header.parameters).add(shot.colour.working.text);
   print.add(static_cast<double>(shot.output.image.type))
       .add(static_cast<double>(shot.output.image.compression));
-  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
-    print.add(textures.digest(k, frame));
-    if (const auto light = light_at(shot.layers[k], frame)) print.add("light").add(*light);
-  }
+  for (std::size_t k = 0; k < shot.layers.size(); ++k) print.add(textures.digest(k, frame));
+  for (const Moment& moment : moments_of(shot, frame)) add_moment(shot, moment, print);
   if (const auto glow = glow_at(shot, frame)) print.add("glow").add(glow->strength).add(glow->radius_px);
   return print.digest();
 }

@@ -8,6 +8,7 @@
 
 #include "pipeline/image/exr_writer.h"
 #include "pipeline/sequence/output_paths.h"
+#include "pipeline/shot/shot_scene.h"
 #include "src/lens_map.h"
 
 namespace lensplane {
@@ -87,7 +88,8 @@ void make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport
   const std::vector<std::size_t> layers = layers_of(setup);
   Scene wanted = setup.scene;
   wanted.surfaces.clear();
-  for (const std::size_t k : layers) wanted.surfaces.push_back(setup.scene.surfaces[k]);
+  const auto map_surfaces = map_surfaces_of(shot);
+  for (const std::size_t k : layers) wanted.surfaces.push_back(setup.scene.surfaces[*map_surfaces[k]]);
   const Tracer tracer(wanted, setup.data.empty() ? setup.plan : setup.data_plan);
   const Camera& camera = setup.scene.camera;
   const ExrWindow window{camera.width, camera.height, camera.overscan};

@@ -4,44 +4,68 @@
 
 #include "pipeline/composite/compositor.h"
 #include "pipeline/composite/glow.h"
-#include "pipeline/composite/map_composite.h"
+#include "pipeline/composite/star_layer.h"
+#include "pipeline/sequence/frame_looks.h"
 #include "pipeline/sequence/make_review.h"
-#include "pipeline/sequence/map_layers.h"
+#include "pipeline/sequence/maps_picture.h"
 #include "pipeline/sequence/output_paths.h"
 #include "pipeline/sequence/shot_glow.h"
+#include "pipeline/sequence/shutter.h"
 #include "pipeline/shot/shot_scene.h"
 
 namespace lensplane {
 namespace {
 
-/// What the surfaces of the scene look like at a time, with the images of its frame.
-std::vector<SurfaceLook> load_looks(const Shot& shot, const Scene& scene, TextureStore& textures, int frame,
+std::vector<SurfaceLook> load_looks(const Shot& shot, const Scene& scene, ShotAssets& assets, int frame,
                                     double time, FrameReport& report) {
-  std::vector<SurfaceLook> looks;
-  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
-    SurfaceLook look;
-    look.texture = timed(report[Phase::Load].seconds, [&] { return textures.texture(k, frame); });
-    report[Phase::Load].bytes += look.texture->picture().pixels.size() * sizeof(Rgba);
-    if (const auto light = light_at(shot.layers[k], time)) {
-      look.light = std::get<Sphere>(scene.surfaces[k]).axes.local_from_parent(*light);
+  return timed(report[Phase::Load].seconds,
+               [&] { return looks_at(shot, scene, assets.textures, frame, time); });
+}
+
+/// What the images of the frame hold, and what of it is no number.
+void report_images(const Shot& shot, const std::vector<SurfaceLook>& looks, FrameReport& report) {
+  const std::vector<LayerSurface> surfaces = surfaces_of(shot);
+  for (std::size_t k = 0; k < looks.size(); ++k) {
+    if (surfaces[k].crossing > 0) continue;
+    std::int64_t not_numbers = 0;
+    for (const auto& texture : {looks[k].texture, looks[k].night}) {
+      if (!texture) continue;
+      report[Phase::Load].bytes += texture->picture().pixels.size() * sizeof(Rgba);
+      not_numbers += texture->not_numbers();
     }
-    looks.push_back(std::move(look));
+    if (not_numbers > 0) report.replaced.push_back({shot.layers[surfaces[k].layer].name, not_numbers});
   }
-  return looks;
 }
 
 /// The picture of one instant.
-Composite take_instant(const Shot& shot, const Scene& scene, TextureStore& textures, int frame, double time,
-                       const Sampling& sampling, FrameReport& report) {
-  const auto looks = load_looks(shot, scene, textures, frame, time, report);
-  TraceSettings settings = trace_at(shot, time);
+Composite take_instant(const Shot& shot, ShotAssets& assets, int frame, const Moment& moment,
+                       FrameReport& report) {
+  const Scene scene = scene_at(shot, moment.time);
+  const auto looks = load_looks(shot, scene, assets, frame, moment.time, report);
+  TraceSettings settings = trace_at(shot, moment.time);
   settings.effects = {};
   settings.effects.jacobian = true;
-  const Tracer tracer(scene, plan_trace(scene, settings));
-  Composite instant =
-      timed(report[Phase::Composite].seconds, [&] { return composite(tracer, looks, sampling); });
-  report.rays += instant.rays;
-  return instant;
+  return timed(report[Phase::Composite].seconds, [&] {
+    const Tracer tracer(scene, plan_trace(scene, settings));
+    Composite instant = composite(tracer, looks, moment.sampling);
+    for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+      if (!std::holds_alternative<StarsLayer>(shot.layers[k].kind)) continue;
+      add_stars(tracer, looks, *assets.stars.field(k, moment.time), instant.picture);
+    }
+    report.rays += instant.rays;
+    return instant;
+  });
+}
+
+/// The mean of the instants while the shutter is open.
+Composite take_exposure(const Shot& shot, ShotAssets& assets, int frame, FrameReport& report) {
+  const std::vector<Moment> moments = moments_of(shot, frame);
+  Composite exposure = take_instant(shot, assets, frame, moments.front(), report);
+  for (std::size_t n = 1; n < moments.size(); ++n) {
+    add(take_instant(shot, assets, frame, moments[n], report), exposure);
+  }
+  scale(1.0 / static_cast<double>(moments.size()), exposure);
+  return exposure;
 }
 
 void write_picture(const Shot& shot, int frame, const FrameSetup& setup, const Picture& picture,
@@ -59,28 +83,21 @@ void write_picture(const Shot& shot, int frame, const FrameSetup& setup, const P
   });
 }
 
-Picture composite_of_maps(const Shot& shot, int frame, const FrameSetup& setup,
-                          const std::vector<SurfaceLook>& looks, FrameReport& report) {
-  const auto layers =
-      timed(report[Phase::Load].seconds, [&] { return load_map_layers(shot, setup.scene, looks, frame); });
-  return timed(report[Phase::Composite].seconds, [&] { return composite_from_maps(layers); });
-}
-
 }  // namespace
 
-void make_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
+void make_picture(const Shot& shot, const ColourConfig& colours, ShotAssets& assets, int frame,
                   const FrameTasks& tasks, const FrameSetup& setup, FrameReport& report) {
-  const auto looks = load_looks(shot, setup.scene, textures, frame, frame, report);
+  const auto looks = load_looks(shot, setup.scene, assets, frame, frame, report);
   Picture picture;
   if (tasks.from_maps) {
-    picture = composite_of_maps(shot, frame, setup, looks, report);
+    picture = picture_from_maps(shot, assets, frame, setup, looks, report);
   } else {
-    Composite result = take_instant(shot, setup.scene, textures, frame, frame, {}, report);
-    report.amplifications = timed(report[Phase::Trace].seconds, [&] {
-      return amplifications_of(shot, setup.scene, setup.plan.method, {}, result.hits);
-    });
-    picture = std::move(result.picture);
+    Composite exposure = take_exposure(shot, assets, frame, report);
+    report.amplifications =
+        timed(report[Phase::Trace].seconds, [&] { return amplifications_of(shot, frame, exposure.hits); });
+    picture = std::move(exposure.picture);
   }
+  report_images(shot, looks, report);
   report[Phase::Composite].bytes += picture.pixels.size() * sizeof(Rgba);
   if (const auto glow = glow_at(shot, frame)) {
     picture = timed(report[Phase::Composite].seconds, [&] { return with_glow(picture, *glow); });

@@ -7,11 +7,12 @@
 
 #include "pipeline/sequence/frame_report.h"
 #include "pipeline/sequence/frame_setup.h"
+#include "pipeline/sequence/shot_assets.h"
 
 namespace lensplane {
 
 /// Makes the files of the picture that `setup` says are wanted. Throws Failure.
-void make_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
+void make_picture(const Shot& shot, const ColourConfig& colours, ShotAssets& assets, int frame,
                   const FrameTasks& tasks, const FrameSetup& setup, FrameReport& report);
 
 /// The amplification that a picture's header keeps: those of a frame that is done already.

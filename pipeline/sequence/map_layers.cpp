@@ -10,6 +10,7 @@
 #include "pipeline/image/failure.h"
 #include "pipeline/sequence/fingerprint.h"
 #include "pipeline/sequence/output_paths.h"
+#include "pipeline/shot/shot_scene.h"
 
 namespace lensplane {
 namespace {
@@ -52,12 +53,14 @@ double distance_of(const Surface& surface, const Vec3& camera) {
 std::vector<MapLayer> load_map_layers(const Shot& shot, const Scene& scene,
                                       const std::vector<SurfaceLook>& looks, int frame) {
   std::vector<MapLayer> layers;
+  const auto surfaces = map_surfaces_of(shot);
   for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+    if (!surfaces[k]) continue;  // stars
     const std::filesystem::path path = existing_map(shot, shot.layers[k], frame);
-    const Surface& surface = scene.surfaces[k];
+    const Surface& surface = scene.surfaces[*surfaces[k]];
     MapLayer layer;
     layer.map = read_map_of(scene.camera, path);
-    layer.look = looks[k];
+    layer.look = looks[*surfaces[k]];
     layer.distance = distance_of(surface, scene.camera.position);
     layer.surface = surface;
     const Picture& picture = layer.look.texture->picture();
@@ -77,6 +80,7 @@ std::vector<MapLayer> load_map_layers(const Shot& shot, const Scene& scene,
 std::string digest_of_maps(const Shot& shot, int frame) {
   Fingerprint print;
   for (const Layer& layer : shot.layers) {
+    if (std::holds_alternative<StarsLayer>(layer.kind)) continue;
     const std::filesystem::path path = existing_map(shot, layer, frame);
     print.add_file(path);
     if (const auto data_file = data_file_beside(path)) print.add("data").add_file(*data_file);

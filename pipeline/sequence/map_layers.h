@@ -13,9 +13,9 @@
 
 namespace lensplane {
 
-/// Reads the maps of all layers, and what their data files say of jacobian and depth. `looks` in the order of
-/// the layers. Throws Failure (BadInput) when a map is missing, broken, or has other windows than the shot's
-/// camera.
+/// Reads the maps of all layers that have one, and what their data files say of jacobian and depth. `looks`
+/// in the order of the scene's surfaces. Throws Failure (BadInput) when a map is missing, broken, or has
+/// other windows than the shot's camera.
 std::vector<MapLayer> load_map_layers(const Shot& shot, const Scene& scene,
                                       const std::vector<SurfaceLook>& looks, int frame);
 

@@ -9,6 +9,7 @@
 #include "pipeline/image/frame_path.h"
 #include "pipeline/image/shipped.h"
 #include "pipeline/sequence/output_paths.h"
+#include "pipeline/shot/layer_files.h"
 
 namespace lensplane {
 namespace {
@@ -40,10 +41,12 @@ std::set<std::string> inputs_of(const Shot& shot, const std::vector<int>& frames
   if (shot.colour.config) inputs.insert(spelled(shot.colour.config->text));
   if (shot.colour.grade) inputs.insert(spelled(shot.colour.grade->cdl.text));
   for (const Layer& layer : shot.layers) {
-    const std::string pattern = spelled(resolve_shipped(layer.image.pattern.text));
-    if (!is_sequence(pattern)) inputs.insert(pattern);
-    for (std::size_t i = 0; is_sequence(pattern) && i < frames.size(); ++i) {
-      inputs.insert(path_of_frame(pattern, frames[i]));
+    for (const LocatedText* file : files_of(layer)) {
+      const std::string pattern = spelled(resolve_shipped(file->text));
+      if (!is_sequence(pattern)) inputs.insert(pattern);
+      for (std::size_t i = 0; is_sequence(pattern) && i < frames.size(); ++i) {
+        inputs.insert(path_of_frame(pattern, frames[i]));
+      }
     }
   }
   return inputs;

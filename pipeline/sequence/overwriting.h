@@ -12,7 +12,7 @@
 namespace lensplane {
 
 /// Throws Failure (BadShot) when one of the files that `frames` of the shot will write, or `statistics`
-/// (empty: none), is the shot file, its OCIO config, or an image of its layers, or when `statistics` is one
+/// (empty: none), is the shot file, its OCIO config, or a file of its layers, or when `statistics` is one
 /// of the other outputs.
 void refuse_overwriting(const Shot& shot, const std::vector<int>& frames, const std::string& statistics);
 

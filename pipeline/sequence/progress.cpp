@@ -67,6 +67,10 @@ std::string line_of(const FrameReport& report) {
     line += a.factor ? fmt::format(", A({}) = {:.3f}", a.layer, *a.factor)
                      : fmt::format(", A({}): not in the frame without lenses", a.layer);
   }
+  for (const ReplacedPixels& replaced : report.replaced) {
+    line += fmt::format(", {}: {} {} black for NaN or infinity", replaced.layer, replaced.count,
+                        replaced.count == 1 ? "pixel" : "pixels");
+  }
   return line;
 }
 

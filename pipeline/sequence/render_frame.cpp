@@ -7,16 +7,16 @@
 
 namespace lensplane {
 
-FrameReport render_frame(const Shot& shot, const ColourConfig& colours, TextureStore& textures, int frame,
+FrameReport render_frame(const Shot& shot, const ColourConfig& colours, ShotAssets& assets, int frame,
                          const FrameTasks& tasks) {
   FrameReport report;
   report.frame = frame;
   timed(report.seconds, [&] {
-    const FrameSetup setup = set_up_frame(shot, colours, textures, frame, tasks);
+    const FrameSetup setup = set_up_frame(shot, colours, assets.textures, frame, tasks);
     const bool maps_done = setup.maps.empty() && setup.data.empty();
     report.already_done = maps_done && !setup.picture;
     if (!maps_done) make_maps(shot, frame, setup, report);
-    if (setup.picture) make_picture(shot, colours, textures, frame, tasks, setup, report);
+    if (setup.picture) make_picture(shot, colours, assets, frame, tasks, setup, report);
     if (tasks.picture && !setup.picture) report.amplifications = kept_amplifications(shot, frame);
   });
   return report;

@@ -23,7 +23,7 @@ struct FrameResult {
 std::vector<FrameReport> render_sequence(const Shot& shot, const ColourConfig& colours,
                                          const std::vector<int>& frames, const FrameTasks& tasks,
                                          const SequenceHooks& hooks) {
-  TextureStore textures(shot, colours);
+  ShotAssets assets(shot, colours);
   std::vector<FrameReport> reports;
   std::size_t next = 0;
   std::atomic<bool> failed = false;
@@ -40,7 +40,7 @@ std::vector<FrameReport> render_sequence(const Shot& shot, const ColourConfig& c
     // Isolated: while a frame waits for its own rows it must not begin another frame on the same thread.
     tbb::this_task_arena::isolate([&] {
       try {
-        result.report = render_frame(shot, colours, textures, frame, tasks);
+        result.report = render_frame(shot, colours, assets, frame, tasks);
       } catch (...) {
         result.failure = std::current_exception();
         failed = true;

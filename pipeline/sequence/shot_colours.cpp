@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "pipeline/image/failure.h"
+#include "pipeline/shot/layer_files.h"
 
 namespace lensplane {
 namespace {
@@ -63,7 +64,9 @@ void check_colours(const Shot& shot, const ColourConfig& colours) {
   require_among(shot.colour.display, colours.displays(), "display");
   require_among(shot.colour.view, colours.views(shot.colour.display.text), "view of this display");
   for (const Layer& layer : shot.layers) {
-    if (layer.image.space) require_space(*layer.image.space, colours);
+    for (const LayerImage* image : images_of(layer)) {
+      if (image->space) require_space(*image->space, colours);
+    }
   }
   if (const auto& grade = shot.colour.grade) {
     if (grade->space) require_space(*grade->space, colours);

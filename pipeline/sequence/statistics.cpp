@@ -25,8 +25,11 @@ Json json_from_report(const FrameReport& report) {
   for (const Amplification& a : report.amplifications) {
     amplification[a.layer] = a.factor ? Json(*a.factor) : Json(nullptr);
   }
-  return {{"frame", report.frame}, {"already_done", report.already_done}, {"seconds", report.seconds},
-          {"rays", report.rays},   {"phases", json_from_phases(report)},  {"amplification", amplification}};
+  Json replaced = Json::object();
+  for (const ReplacedPixels& r : report.replaced) replaced[r.layer] = r.count;
+  return {{"replaced_pixels", replaced},   {"frame", report.frame}, {"already_done", report.already_done},
+          {"seconds", report.seconds},     {"rays", report.rays},   {"phases", json_from_phases(report)},
+          {"amplification", amplification}};
 }
 
 FrameReport sum_of(const std::vector<FrameReport>& reports) {

@@ -2,29 +2,26 @@
 
 #include "pipeline/sequence/texture_store.h"
 
-#include "pipeline/image/failure.h"
 #include "pipeline/image/frame_path.h"
+#include "pipeline/image/image_reader.h"
 #include "pipeline/image/shipped.h"
 #include "pipeline/sequence/fingerprint.h"
+#include "pipeline/sequence/located_in_shot.h"
+#include "pipeline/shot/layer_files.h"
 
 namespace lensplane {
 namespace {
 
-std::string path_of(const Layer& layer, int frame) {
-  return resolve_shipped(path_of_frame(layer.image.pattern.text, frame)).string();
+std::string path_of(const LocatedText& pattern, int frame) {
+  return resolve_shipped(path_of_frame(pattern.text, frame)).string();
 }
 
-/// Runs `work`; when an input fails there, the line says which key of the shot names it.
-auto located_in_shot(const Layer& layer, auto work) {
-  try {
-    return work();
-  } catch (const Failure& failure) {
-    const LocatedText& named = layer.image.pattern;
-    throw Failure(failure.code(), located(named.location, named.key, failure.what()));
-  }
+void require_file(const std::string& path, const std::string& noun) {
+  if (!std::filesystem::exists(path)) throw Failure(ExitCode::BadInput, path + ": no such " + noun);
 }
 
 Wrap wrap_of(const Layer& layer) {
+  if (std::holds_alternative<RingLayer>(layer.kind)) return Wrap::Clamp;
   const auto* plate = std::get_if<PlateLayer>(&layer.kind);
   if (!plate) return Wrap::Globe;
   switch (plate->edge) {
@@ -44,50 +41,92 @@ Wrap wrap_of(const Layer& layer) {
 
 std::shared_ptr<const Texture> TextureStore::texture(std::size_t index, int frame) {
   const Layer& layer = shot_.layers[index];
-  const auto load = [&] {
-    return located_in_shot(layer, [&] {
-      const std::string path = path_of(layer, frame);
-      Picture picture =
-          colours_.to_working(read_image(path), encoding_of(layer, path), shot_.colour.working.text);
-      return std::make_shared<const Texture>(std::move(picture), wrap_of(layer));
-    });
-  };
-  if (is_sequence(layer.image.pattern.text)) return load();
-  const std::lock_guard lock(mutex_);
-  auto& kept = still_textures_[index];
-  if (!kept) kept = load();
-  return kept;
+  return load(layer.image, wrap_of(layer), frame);
+}
+
+std::shared_ptr<const Texture> TextureStore::night(std::size_t index, int frame) {
+  const Layer& layer = shot_.layers[index];
+  const auto* sphere = std::get_if<SphereLayer>(&layer.kind);
+  return sphere && sphere->night ? load(*sphere->night, wrap_of(layer), frame) : nullptr;
 }
 
 std::string TextureStore::digest(std::size_t index, int frame) {
   const Layer& layer = shot_.layers[index];
+  if (const auto* stars = std::get_if<StarsLayer>(&layer.kind)) return digest_of(stars->catalogue);
+  Fingerprint print;
+  for (const LayerImage* image : images_of(layer)) print.add(digest_of(*image, wrap_of(layer), frame));
+  return print.digest();
+}
+
+Texture TextureStore::read(const LayerImage& image, Wrap wrap, int frame) const {
+  return located_in_shot(image.pattern, [&] {
+    const std::string path = path_of(image.pattern, frame);
+    const ImageEncoding encoding = encoding_of(image, path);
+    const auto to_working = [this, encoding](const EncodedImage& encoded) {
+      return colours_.to_working(encoded, encoding, shot_.colour.working.text);
+    };
+    if (!is_larger_than_memory(path)) return Texture(to_working(read_image(path)), wrap);
+    return Texture(TiledTexture(std::make_shared<TiledImage>(path, kFileCacheBytes), to_working, tiles_),
+                   wrap);
+  });
+}
+
+std::shared_ptr<const Texture> TextureStore::load(const LayerImage& image, Wrap wrap, int frame) {
+  if (!is_sequence(image.pattern.text)) {
+    const std::lock_guard lock(mutex_);
+    auto& kept = still_textures_[&image];
+    if (!kept) kept = std::make_shared<const Texture>(read(image, wrap, frame));
+    return kept;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (auto used = moving_textures_[{&image, frame}].lock()) return used;
+  }
+  auto texture = std::make_shared<const Texture>(read(image, wrap, frame));
+  const std::lock_guard lock(mutex_);
+  std::erase_if(moving_textures_, [](const auto& entry) { return entry.second.expired(); });
+  moving_textures_[{&image, frame}] = texture;
+  return texture;
+}
+
+std::string TextureStore::digest_of(const LayerImage& image, Wrap wrap, int frame) {
   const auto compute = [&] {
-    return located_in_shot(layer, [&] {
-      const std::string path = path_of(layer, frame);
-      if (!std::filesystem::exists(path)) throw Failure(ExitCode::BadInput, path + ": no such image");
-      const ImageEncoding encoding = encoding_of(layer, path);
+    return located_in_shot(image.pattern, [&] {
+      const std::string path = path_of(image.pattern, frame);
+      require_file(path, "image");
+      const ImageEncoding encoding = encoding_of(image, path);
       return Fingerprint()
           .add_file(path)
           .add(colours_.conversion_id(encoding.space, shot_.colour.working.text))
-          .add(layer.image.alpha ? static_cast<double>(*layer.image.alpha) : -1.0)
-          .add(static_cast<double>(wrap_of(layer)))
+          .add(image.alpha ? static_cast<double>(*image.alpha) : -1.0)
+          .add(static_cast<double>(wrap))
           .digest();
     });
   };
-  if (is_sequence(layer.image.pattern.text)) return compute();
+  if (is_sequence(image.pattern.text)) return compute();
   const std::lock_guard lock(mutex_);
-  auto& kept = still_digests_[index];
+  auto& kept = still_digests_[&image.pattern];
   if (kept.empty()) kept = compute();
   return kept;
 }
 
-ImageEncoding TextureStore::encoding_of(const Layer& layer, const std::string& path) const {
+std::string TextureStore::digest_of(const LocatedText& file) {
+  const std::lock_guard lock(mutex_);
+  auto& kept = still_digests_[&file];
+  if (!kept.empty()) return kept;
+  return kept = located_in_shot(file, [&] {
+           const std::string path = resolve_shipped(file.text).string();
+           require_file(path, "file");
+           return Fingerprint().add_file(path).digest();
+         });
+}
+
+ImageEncoding TextureStore::encoding_of(const LayerImage& image, const std::string& path) const {
   ImageEncoding encoding;
-  encoding.space =
-      layer.image.space ? layer.image.space->text : colours_.space_of_file(path, read_interop_id(path));
-  if (layer.image.alpha == AlphaKind::Associated) encoding.premultiplied = true;
-  if (layer.image.alpha == AlphaKind::Straight) encoding.premultiplied = false;
-  encoding.ignore_alpha = layer.image.alpha == AlphaKind::None;
+  encoding.space = image.space ? image.space->text : colours_.space_of_file(path, read_interop_id(path));
+  if (image.alpha == AlphaKind::Associated) encoding.premultiplied = true;
+  if (image.alpha == AlphaKind::Straight) encoding.premultiplied = false;
+  encoding.ignore_alpha = image.alpha == AlphaKind::None;
   return encoding;
 }
 

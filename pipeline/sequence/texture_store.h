@@ -15,26 +15,37 @@
 
 namespace lensplane {
 
-/// Safe to use from many threads. Still images are kept; those of sequences are read for their frame.
+/// Safe to use from many threads. Still images are kept; those of sequences as long as their frame uses them.
+/// Of images larger than memory (tiled_image.h) no more than kTileBytes are held together.
 class TextureStore {
  public:
   /// `shot` and `colours` have to outlive the store.
   TextureStore(const Shot& shot, const ColourConfig& colours) : shot_(shot), colours_(colours) {}
 
-  /// The image of a layer (an index into Shot::layers) at a frame. Throws Failure (BadInput).
+  /// The image of a layer (an index into Shot::layers) at a frame. Not of stars: they have none. Throws
+  /// Failure (BadInput).
   std::shared_ptr<const Texture> texture(std::size_t layer, int frame);
 
-  /// A hash of the image's file and of how its colours are read.
+  /// The image of a sphere's night; null when it has none. Throws Failure (BadInput).
+  std::shared_ptr<const Texture> night(std::size_t layer, int frame);
+
+  /// A hash of all the layer's files, images or catalogue, and of how their colours are read.
   std::string digest(std::size_t layer, int frame);
 
  private:
-  ImageEncoding encoding_of(const Layer& layer, const std::string& path) const;
+  Texture read(const LayerImage& image, Wrap wrap, int frame) const;
+  std::shared_ptr<const Texture> load(const LayerImage& image, Wrap wrap, int frame);
+  std::string digest_of(const LayerImage& image, Wrap wrap, int frame);
+  std::string digest_of(const LocatedText& file);
+  ImageEncoding encoding_of(const LayerImage& image, const std::string& path) const;
 
   const Shot& shot_;
   const ColourConfig& colours_;
   std::mutex mutex_;
-  std::map<std::size_t, std::shared_ptr<const Texture>> still_textures_;
-  std::map<std::size_t, std::string> still_digests_;
+  const std::shared_ptr<TileCache> tiles_ = std::make_shared<TileCache>();
+  std::map<const LayerImage*, std::shared_ptr<const Texture>> still_textures_;
+  std::map<std::pair<const LayerImage*, int>, std::weak_ptr<const Texture>> moving_textures_;
+  std::map<const LocatedText*, std::string> still_digests_;
 };
 
 }  // namespace lensplane

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMaxResolution = 65536;
 constexpr int kMaxOverscan = 16384;
+constexpr int kMaxShutterSamples = 256;
 constexpr int kMaxPixels = 1 << 28;  // 16384 x 16384
 
 constexpr std::array<std::string_view, 3> kProjectionNames = {"perspective", "latlong", "fisheye"};
@@ -113,34 +114,30 @@ std::variant<Rotation, LookAt> read_orientation(const Value& camera, const ShotN
   return Rotation{};
 }
 
-int read_overscan(const Value& overscan, NotYet& not_yet) {
-  if (overscan.text() == "auto") {
-    not_yet.add(overscan, "auto; write a number of pixels");
-    return 0;
-  }
+/// Nothing for auto.
+std::optional<int> read_overscan(const Value& overscan) {
+  if (overscan.text() == "auto") return std::nullopt;
   const int pixels = overscan.integer(0, kMaxOverscan);
   if (pixels % 2 != 0)
     overscan.refuse(fmt::format("{} is odd; allowed: an even number of pixels, or auto", pixels));
   return pixels;
 }
 
-/// Motion blur is what the shutter is for; until it is there the shutter is only checked.
-void check_shutter(const Value& shutter, NotYet& not_yet) {
-  shutter.only_keys({"open", "close", "samples"});
-  const auto edge = [&shutter](std::string_view name) {
-    const auto value = shutter.find(name);
-    return value ? read_keyed_quantity(*value, Dimension::Number) : Keyed<double>{};
+Shutter read_shutter(const Value& value) {
+  value.only_keys({"open", "close", "samples"});
+  const auto edge = [&value](std::string_view name) {
+    const auto moment = value.find(name);
+    return moment ? read_keyed_quantity(*moment, Dimension::Number) : Keyed<double>{};
   };
-  const Keyed<double> open = edge("open"), close = edge("close");
-  for (const Keyed<double>* keyed : {&open, &close}) {
+  Shutter shutter{edge("open"), edge("close")};
+  for (const Keyed<double>* keyed : {&shutter.open, &shutter.close}) {
     for (const double frame : keyed->frames) {
-      if (value_at(close, frame) < value_at(open, frame))
-        shutter.refuse("closes before it opens; allowed: open <= close");
+      if (value_at(shutter.close, frame) < value_at(shutter.open, frame))
+        value.refuse("closes before it opens; allowed: open <= close");
     }
   }
-  if (const auto samples = shutter.find("samples")) {
-    if (samples->integer(1, 1024) > 1) not_yet.add(*samples, "motion blur; write 1");
-  }
+  if (const auto samples = value.find("samples")) shutter.samples = samples->integer(1, kMaxShutterSamples);
+  return shutter;
 }
 
 GlowTrack read_glow(const Value& glow) {
@@ -183,13 +180,14 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not
   if (const auto position = camera.find("position"))
     track.position = read_keyed_vector(*position, Dimension::Length);
   track.orientation = read_orientation(camera, names);
-  if (const auto overscan = camera.find("overscan")) track.overscan = read_overscan(*overscan, not_yet);
-  const double pixels = (track.width + 2.0 * track.overscan) * (track.height + 2.0 * track.overscan);
+  if (const auto overscan = camera.find("overscan")) track.overscan = read_overscan(*overscan);
+  const double margin = 2.0 * track.overscan.value_or(0);
+  const double pixels = (track.width + margin) * (track.height + margin);
   if (pixels > kMaxPixels) {
     camera.find("resolution")
         ->refuse(fmt::format("more than {} million pixels with overscan", kMaxPixels >> 20));
   }
-  if (const auto shutter = camera.find("shutter")) check_shutter(*shutter, not_yet);
+  if (const auto shutter = camera.find("shutter")) track.shutter = read_shutter(*shutter);
   if (const auto glow = camera.find("glow")) track.glow = read_glow(*glow);
   return track;
 }

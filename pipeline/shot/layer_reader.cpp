@@ -14,10 +14,11 @@ enum class LayerType { Plate, LatLong, Sphere, Ring, Stars, PovRay };
 constexpr std::array<std::string_view, 6> kTypeNames = {"plate", "latlong", "sphere",
                                                         "ring",  "stars",   "povray"};
 
-LayerImage read_image(const Value& layer) {
-  const Value value =
-      layer.require("image", "the path of an image, or of a sequence, like plates/bg.####.exr");
-  const auto located_text = [](const Value& v) { return LocatedText{v.text(), v.location(), v.key()}; };
+LocatedText located_text(const Value& value) {
+  return {value.text(), value.location(), value.key()};
+}
+
+LayerImage read_image(const Value& value) {
   if (!value.is_map()) return {located_text(value), std::nullopt, std::nullopt};
   value.only_keys({"file", "space", "alpha"});
   LayerImage image{located_text(value.require("file", "the path of an image")), std::nullopt, std::nullopt};
@@ -29,17 +30,21 @@ LayerImage read_image(const Value& layer) {
   return image;
 }
 
-/// A plate's or a POV-Ray scene's `distance`: only infinity is there yet.
-void read_distance(const Value& layer, NotYet& not_yet) {
-  const auto distance = layer.find("distance");
-  if (!distance || (!distance->is_map() && distance->text() == "infinity")) return;
-  read_keyed_positive(*distance, Dimension::Length);
-  not_yet.add(*distance, "a plate at a finite distance; write infinity");
+LayerImage read_image_of(const Value& layer) {
+  return read_image(
+      layer.require("image", "the path of an image, or of a sequence, like plates/bg.####.exr"));
 }
 
-PlateLayer read_plate(const Value& layer, NotYet& not_yet) {
+/// Nothing for infinity.
+std::optional<Keyed<double>> read_distance(const Value& layer) {
+  const auto distance = layer.find("distance");
+  if (!distance || (!distance->is_map() && distance->text() == "infinity")) return std::nullopt;
+  return read_keyed_positive(*distance, Dimension::Length);
+}
+
+PlateLayer read_plate(const Value& layer) {
   PlateLayer plate;
-  read_distance(layer, not_yet);
+  plate.distance = read_distance(layer);
   if (const auto edge = layer.find("edge")) {
     constexpr std::array<std::string_view, 4> kNames = {"black", "clamp", "mirror", "repeat"};
     plate.edge = static_cast<Edge>(edge->choice(kNames));
@@ -54,32 +59,64 @@ SphereLayer read_sphere(const Value& layer) {
   if (const auto rotation = layer.find("rotation"))
     sphere.rotation = read_keyed_vector(*rotation, Dimension::Angle);
   if (const auto light = layer.find("light")) sphere.light = read_keyed_direction(*light);
+  if (const auto night = layer.find("night")) {
+    if (!sphere.light) night->refuse("without light there is no night; needed: light, a direction");
+    sphere.night = read_image(*night);
+  }
   return sphere;
 }
 
-void check_ring(const Value& layer, const ShotNames& names) {
-  const Value centre = layer.require("centre", "[x, y, z], or the name of a layer");
-  if (centre.is_list() || centre.is_map()) {
-    read_keyed_vector(centre, Dimension::Length);
-  } else if (std::find(names.layers.begin(), names.layers.end(), centre.text()) == names.layers.end()) {
-    centre.refuse(in_quotes(centre.text()) +
-                  " is no layer of this shot; allowed: the name of one, or [x, y, z]");
+LayerIndex read_layer_name(const Value& value, const ShotNames& names, std::string_view allowed) {
+  const auto found = std::find(names.layers.begin(), names.layers.end(), value.text());
+  if (found == names.layers.end()) {
+    value.refuse(fmt::format("{} is no layer of this shot; allowed: {}", in_quotes(value.text()), allowed));
   }
-  read_keyed_direction(layer.require("normal", "[x, y, z], the ring's axis"));
-  const Keyed<double> inner = read_keyed_positive(layer.require("inner", "a length"), Dimension::Length);
-  const Value outer_value = layer.require("outer", "a length");
-  const Keyed<double> outer = read_keyed_positive(outer_value, Dimension::Length);
-  for (const Keyed<double>* radii : {&inner, &outer}) {
+  return {static_cast<std::size_t>(found - names.layers.begin())};
+}
+
+void read_radii(const Value& layer, RingLayer& ring) {
+  ring.inner = read_keyed(layer.require("inner", "a length"), [](const Value& v) {
+    const double inner = v.quantity(Dimension::Length);
+    if (inner < 0) v.refuse(in_quotes(v.text()) + " is negative; allowed: 0 or more");
+    return inner;
+  });
+  const Value outer = layer.require("outer", "a length");
+  ring.outer = read_keyed_positive(outer, Dimension::Length);
+  for (const Keyed<double>* radii : {&ring.inner, &ring.outer}) {
     for (const double frame : radii->frames) {
-      if (!(value_at(inner, frame) < value_at(outer, frame)))
-        outer_value.refuse("has to be larger than inner");
+      if (!(value_at(ring.inner, frame) < value_at(ring.outer, frame)))
+        outer.refuse("has to be larger than inner");
     }
   }
 }
 
-void check_stars(const Value& layer) {
-  layer.require("catalogue", "the path of a star catalogue").text();
-  if (const auto exposure = layer.find("exposure")) read_keyed_quantity(*exposure, Dimension::Number);
+RingLayer read_ring(const Value& layer, const ShotNames& names) {
+  RingLayer ring;
+  const Value centre = layer.require("centre", "[x, y, z], or the name of a sphere");
+  if (centre.is_list() || centre.is_map()) {
+    ring.centre = read_keyed_vector(centre, Dimension::Length);
+  } else {
+    ring.centre = read_layer_name(centre, names, "the name of a sphere, or [x, y, z]");
+  }
+  ring.normal = read_keyed_direction(layer.require("normal", "[x, y, z], the ring's axis"));
+  read_radii(layer, ring);
+  if (const auto shadow = layer.find("shadow_of"))
+    ring.shadow_of = read_layer_name(*shadow, names, "the name of a sphere");
+  if (const auto light = layer.find("light")) {
+    if (!ring.shadow_of) light->refuse("has a meaning only together with shadow_of");
+    ring.light = read_keyed_direction(*light);
+  }
+  return ring;
+}
+
+StarsLayer read_stars(const Value& layer) {
+  StarsLayer stars;
+  stars.catalogue = located_text(layer.require("catalogue", "the path of a star catalogue"));
+  if (const auto exposure = layer.find("exposure"))
+    stars.exposure = read_keyed_quantity(*exposure, Dimension::Number);
+  if (const auto rotation = layer.find("rotation"))
+    stars.rotation = read_keyed_vector(*rotation, Dimension::Angle);
+  return stars;
 }
 
 void check_povray(const Value& layer) {
@@ -101,11 +138,12 @@ void only_keys_of(LayerType type, const Value& layer) {
     case LayerType::LatLong:
       return layer.only_keys({"name", "type", "image"});
     case LayerType::Sphere:
-      return layer.only_keys({"name", "type", "image", "centre", "radius", "rotation", "light"});
+      return layer.only_keys({"name", "type", "image", "centre", "radius", "rotation", "light", "night"});
     case LayerType::Ring:
-      return layer.only_keys({"name", "type", "image", "centre", "normal", "inner", "outer"});
+      return layer.only_keys(
+          {"name", "type", "image", "centre", "normal", "inner", "outer", "shadow_of", "light"});
     case LayerType::Stars:
-      return layer.only_keys({"name", "type", "catalogue", "exposure"});
+      return layer.only_keys({"name", "type", "catalogue", "exposure", "rotation"});
     case LayerType::PovRay:
       return layer.only_keys({"name", "type", "scene", "as", "distance"});
   }
@@ -122,24 +160,58 @@ std::optional<Layer> read_layer(const Value& layer, const ShotNames& names, NotY
   const std::string name = layer.require("name", "a name for this layer's files").name();
   switch (type) {
     case LayerType::Plate:
-      return Layer{name, read_image(layer), read_plate(layer, not_yet)};
+      return Layer{name, read_image_of(layer), read_plate(layer)};
     case LayerType::LatLong:
-      return Layer{name, read_image(layer), LatLongLayer{}};
+      return Layer{name, read_image_of(layer), LatLongLayer{}};
     case LayerType::Sphere:
-      return Layer{name, read_image(layer), read_sphere(layer)};
+      return Layer{name, read_image_of(layer), read_sphere(layer)};
     case LayerType::Ring:
-      read_image(layer);
-      check_ring(layer, names);
-      break;
+      return Layer{name, read_image_of(layer), read_ring(layer, names)};
     case LayerType::Stars:
-      check_stars(layer);
-      break;
+      return Layer{name, {}, read_stars(layer)};
     case LayerType::PovRay:
       check_povray(layer);
       break;
   }
   not_yet.add(type_value, type_value.text());
   return std::nullopt;
+}
+
+namespace {
+
+/// The sphere that a ring names.
+const SphereLayer& named_sphere(const Value& name, LayerIndex layer, const std::vector<Layer>& layers) {
+  const auto* sphere = std::get_if<SphereLayer>(&layers[layer.index].kind);
+  if (!sphere) name.refuse(in_quotes(name.text()) + " is no sphere; allowed: the name of one");
+  return *sphere;
+}
+
+void check_ring(const Value& item, const RingLayer& ring, const std::vector<Layer>& layers) {
+  if (const auto* centre = std::get_if<LayerIndex>(&ring.centre)) {
+    named_sphere(*item.find("centre"), *centre, layers);
+  }
+  if (!ring.shadow_of) return;
+  const Value shadow = *item.find("shadow_of");
+  if (!named_sphere(shadow, *ring.shadow_of, layers).light && !ring.light) {
+    shadow.refuse(in_quotes(shadow.text()) +
+                  " has no light to throw a shadow in; needed: light, there or of this ring");
+  }
+}
+
+}  // namespace
+
+void check_layers(const Value& layers, const Shot& shot) {
+  const std::vector<Value> items = layers.items();
+  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+    const auto& kind = shot.layers[k].kind;
+    if (const auto* ring = std::get_if<RingLayer>(&kind)) check_ring(items[k], *ring, shot.layers);
+    const auto* plate = std::get_if<PlateLayer>(&kind);
+    if (plate && plate->distance && shot.camera.projection != Projection::Perspective) {
+      items[k]
+          .find("distance")
+          ->refuse("a plate at a distance faces a perspective camera; allowed for this camera: infinity");
+    }
+  }
 }
 
 }  // namespace lensplane

@@ -14,4 +14,8 @@ namespace lensplane {
 /// not available yet.
 std::optional<Layer> read_layer(const Value& layer, const ShotNames& names, NotYet& not_yet);
 
+/// What can be said of layers only together: rings refer to spheres with centres and lights, and plates at a
+/// distance need a camera with a flat frame. `shot` holds all of them and the camera.
+void check_layers(const Value& layers, const Shot& shot);
+
 }  // namespace lensplane

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 namespace lensplane {
 namespace {
@@ -34,8 +35,16 @@ std::vector<bool> read_chosen(const Value& value, const std::vector<std::string_
   return chosen;
 }
 
-std::vector<bool> read_maps(const Value& maps, const std::vector<std::string>& layers) {
-  return read_chosen(maps, {layers.begin(), layers.end()});
+std::vector<bool> read_maps(const Value& maps, const OutputLayers& layers) {
+  for (const Value& item : maps.is_list() ? maps.items() : std::vector<Value>()) {
+    const auto named = std::find(layers.names.begin(), layers.names.end(), item.text());
+    if (named != layers.names.end() && !layers.have_maps[named - layers.names.begin()])
+      item.refuse(in_quotes(item.text()) + " is a layer of stars, which have no map");
+  }
+  std::vector<bool> chosen = read_chosen(maps, {layers.names.begin(), layers.names.end()});
+  std::transform(chosen.begin(), chosen.end(), layers.have_maps.begin(), chosen.begin(),
+                 std::logical_and<>());
+  return chosen;
 }
 
 Effects read_data(const Value& data) {
@@ -50,10 +59,10 @@ Effects read_data(const Value& data) {
 }  // namespace
 
 OutputSettings read_output(const std::optional<Value>& output, const std::string& name,
-                           const std::vector<std::string>& layers, NotYet& not_yet) {
+                           const OutputLayers& layers, NotYet& not_yet) {
   OutputSettings settings;
   settings.directory = "renders/" + name;
-  settings.maps.assign(layers.size(), true);
+  settings.maps = layers.have_maps;
   if (!output) return settings;
   output->only_keys({"directory", "image", "maps", "data", "review", "movie", "locator"});
   if (const auto directory = output->find("directory")) settings.directory = directory->text();

@@ -13,9 +13,15 @@
 
 namespace lensplane {
 
+/// The layers of a shot as its outputs name them.
+struct OutputLayers {
+  std::vector<std::string> names;
+  std::vector<bool> have_maps;  // stars have none
+};
+
 /// Reads `output` (nothing: everything as it is when it is left out) of the shot `name` with these `layers`.
 /// The directory stays as it is written.
 OutputSettings read_output(const std::optional<Value>& output, const std::string& name,
-                           const std::vector<std::string>& layers, NotYet& not_yet);
+                           const OutputLayers& layers, NotYet& not_yet);
 
 }  // namespace lensplane

@@ -59,14 +59,21 @@ struct GlowTrack {
   Keyed<double> radius;    // share of the frame's width
 };
 
+/// When light is let in, in frames from the frame itself, and at how many moments between.
+struct Shutter {
+  Keyed<double> open, close;
+  int samples = 1;
+};
+
 struct CameraTrack {
   int width = 0;
   int height = 0;
-  int overscan = 0;
+  std::optional<int> overscan = 0;  // pixels on every side; nothing: as much as the lenses need
   Projection projection = Projection::Perspective;
   std::variant<Keyed<double>, FocalLength> fov;  // radians, as Camera::fov_rad
   Keyed<Vec3> position;
   std::variant<Rotation, LookAt> orientation;
+  Shutter shutter;
   std::optional<GlowTrack> glow;
 };
 
@@ -90,6 +97,7 @@ struct LayerImage {
 
 struct PlateLayer {
   Edge edge = Edge::Black;
+  std::optional<Keyed<double>> distance;  // metres along the camera's axis; nothing: at infinity
 };
 struct LatLongLayer {};
 struct SphereLayer {
@@ -97,12 +105,25 @@ struct SphereLayer {
   Keyed<double> radius;
   Keyed<Vec3> rotation;              // as Rotation
   std::optional<Keyed<Vec3>> light;  // unit direction towards the light
+  std::optional<LayerImage> night;   // seen where the light does not come; only with light
+};
+struct RingLayer {
+  std::variant<Keyed<Vec3>, LayerIndex> centre;  // or that of a sphere
+  Keyed<Vec3> normal;                            // unit vector
+  Keyed<double> inner, outer;                    // metres
+  std::optional<LayerIndex> shadow_of;           // the sphere whose shadow falls on it
+  std::optional<Keyed<Vec3>> light;              // of that shadow; nothing: the sphere's
+};
+struct StarsLayer {
+  LocatedText catalogue;   // a path
+  Keyed<double> exposure;  // stops
+  Keyed<Vec3> rotation;    // as Rotation
 };
 
 struct Layer {
   std::string name;
-  LayerImage image;
-  std::variant<PlateLayer, LatLongLayer, SphereLayer> kind;
+  LayerImage image;  // stars have none
+  std::variant<PlateLayer, LatLongLayer, SphereLayer, RingLayer, StarsLayer> kind;
 };
 
 /// A grade by an ASC CDL, for the picture for review.
@@ -128,6 +149,12 @@ struct TraceTrack {
   Choice finite_distance = Choice::Auto;
 };
 
+/// How finely a pixel of the picture is sampled.
+struct SamplingSettings {
+  int max = 64;              // rays in a pixel at most: a power of 4
+  double threshold = 0.004;  // standard error, as an eye sees it, up to which a pixel has enough of them
+};
+
 /// The file of the picture for review: 8 or 16 bits.
 enum class ReviewFormat { Png, Png16, Tiff16 };
 
@@ -137,7 +164,7 @@ enum class Locator { None, Beside };
 struct OutputSettings {
   std::filesystem::path directory;
   ExrFormat image;
-  std::vector<bool> maps;  // per layer
+  std::vector<bool> maps;  // per layer; never of stars
   Effects data;            // passes of the data files, which stand beside the maps; none without maps
   std::optional<ReviewFormat> review = ReviewFormat::Png;
   Locator locator = Locator::None;
@@ -152,6 +179,7 @@ struct Shot {
   std::vector<LensTrack> lenses;
   std::vector<Layer> layers;
   TraceTrack trace;
+  SamplingSettings sampling;
   ColourSettings colour;
   OutputSettings output;
 };

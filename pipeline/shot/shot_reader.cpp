@@ -2,6 +2,7 @@
 
 #include "pipeline/shot/shot_reader.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -11,6 +12,7 @@
 #include "pipeline/image/shipped.h"
 #include "pipeline/shot/camera_reader.h"
 #include "pipeline/shot/frame_range.h"
+#include "pipeline/shot/layer_files.h"
 #include "pipeline/shot/layer_reader.h"
 #include "pipeline/shot/output_reader.h"
 #include "pipeline/shot/settings.h"
@@ -136,22 +138,55 @@ ColourSettings read_colour(const Value& root) {
   return settings;
 }
 
-/// A camera can look at a lens or at a sphere; other layers are nowhere in particular.
+bool is_power_of_4(int n) {
+  while (n > 1 && n % 4 == 0) n /= 4;
+  return n == 1;
+}
+
+SamplingSettings read_sampling(const Value& root) {
+  SamplingSettings settings;
+  const auto sampling = root.find("sampling");
+  if (!sampling) return settings;
+  sampling->only_keys({"max", "threshold"});
+  if (const auto max = sampling->find("max")) {
+    settings.max = max->integer(1, 64);
+    if (!is_power_of_4(settings.max)) max->refuse(in_quotes(max->text()) + "; allowed: 1, 4, 16, 64");
+  }
+  if (const auto threshold = sampling->find("threshold")) {
+    settings.threshold = threshold->positive(Dimension::Number);
+    if (settings.threshold > 1.0)
+      threshold->refuse(in_quotes(threshold->text()) + "; allowed: more than 0 and up to 1");
+  }
+  return settings;
+}
+
+OutputLayers output_layers(const ShotNames& names, const std::vector<Layer>& layers) {
+  OutputLayers result{names.layers, std::vector<bool>(names.layers.size(), true)};
+  for (const Layer& layer : layers) {
+    const auto at = std::find(names.layers.begin(), names.layers.end(), layer.name) - names.layers.begin();
+    result.have_maps[at] = !std::holds_alternative<StarsLayer>(layer.kind);
+  }
+  return result;
+}
+
+/// A camera can look at what has a centre; other layers are nowhere in particular.
 void check_look_at(const Value& root, const Shot& shot) {
   const auto* look_at = std::get_if<LookAt>(&shot.camera.orientation);
   const auto* layer = look_at ? std::get_if<LayerIndex>(&look_at->target) : nullptr;
-  if (!layer || std::holds_alternative<SphereLayer>(shot.layers[layer->index].kind)) return;
+  if (!layer) return;
+  const auto& kind = shot.layers[layer->index].kind;
+  if (std::holds_alternative<SphereLayer>(kind) || std::holds_alternative<RingLayer>(kind)) return;
   const Value value = *root.find("camera")->find("look_at");
   value.refuse(in_quotes(value.text()) +
-               " has no centre to look at; allowed: a lens, a sphere, or [x, y, z]");
+               " has no centre to look at; allowed: a lens, a sphere, a ring, or [x, y, z]");
 }
 
 }  // namespace
 
 Shot shot_from_yaml(const YamlNode& tree) {
   const Value root(tree, "");
-  root.only_keys(
-      {"lensplane", "shot", "frames", "fps", "camera", "lenses", "layers", "trace", "colour", "output"});
+  root.only_keys({"lensplane", "shot", "frames", "fps", "camera", "lenses", "layers", "trace", "sampling",
+                  "colour", "output"});
   read_version(root);
   NotYet not_yet;
   Shot shot;
@@ -172,10 +207,12 @@ Shot shot_from_yaml(const YamlNode& tree) {
   }
   shot.camera = read_camera(root.require("camera", "a map with resolution, fov, ..."), names, not_yet);
   shot.trace = read_trace(root.find("trace"), shot.camera.projection);
+  shot.sampling = read_sampling(root);
   shot.colour = read_colour(root);
-  shot.output = read_output(root.find("output"), shot.name, names.layers, not_yet);
+  shot.output = read_output(root.find("output"), shot.name, output_layers(names, shot.layers), not_yet);
   not_yet.throw_first();
   check_look_at(root, shot);
+  check_layers(layers, shot);
   return shot;
 }
 
@@ -190,8 +227,9 @@ Shot read_shot(const std::filesystem::path& path, const std::vector<std::string>
     return (folder / file).lexically_normal().string();
   };
   for (Layer& layer : shot.layers) {
-    std::string& pattern = layer.image.pattern.text;
-    if (!pattern.starts_with(kShippedPrefix)) pattern = beside_shot(pattern);
+    for (LocatedText* file : files_of(layer)) {
+      if (!file->text.starts_with(kShippedPrefix)) file->text = beside_shot(file->text);
+    }
   }
   if (shot.colour.grade) shot.colour.grade->cdl.text = beside_shot(shot.colour.grade->cdl.text);
   if (shot.colour.config) shot.colour.config->text = beside_shot(shot.colour.config->text);

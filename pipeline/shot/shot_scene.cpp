@@ -24,12 +24,22 @@ double fov_at(const CameraTrack& camera, double frame) {
   return value_at(std::get<Keyed<double>>(camera.fov), frame);
 }
 
+/// Of a sphere or a ring.
+Vec3 centre_at(const Shot& shot, const Layer& layer, double frame) {
+  if (const auto* sphere = std::get_if<SphereLayer>(&layer.kind)) return value_at(sphere->centre, frame);
+  const auto& ring = std::get<RingLayer>(layer.kind);
+  if (const auto* other = std::get_if<LayerIndex>(&ring.centre)) {
+    return centre_at(shot, shot.layers[other->index], frame);
+  }
+  return value_at(std::get<Keyed<Vec3>>(ring.centre), frame);
+}
+
 Vec3 target_of(const Shot& shot, const LookAt& look_at, double frame) {
   if (const auto* lens = std::get_if<LensIndex>(&look_at.target)) {
     return value_at(shot.lenses[lens->index].position, frame);
   }
   if (const auto* layer = std::get_if<LayerIndex>(&look_at.target)) {
-    return value_at(std::get<SphereLayer>(shot.layers[layer->index].kind).centre, frame);
+    return centre_at(shot, shot.layers[layer->index], frame);
   }
   return value_at(std::get<Keyed<Vec3>>(look_at.target), frame);
 }
@@ -49,12 +59,36 @@ Basis axes_at(const Shot& shot, const Vec3& position, double frame) {
   return axes;
 }
 
-Surface surface_at(const Layer& layer, double frame) {
-  if (std::holds_alternative<PlateLayer>(layer.kind)) return Plate{};
-  if (std::holds_alternative<LatLongLayer>(layer.kind)) return LatLong{};
-  const auto& sphere = std::get<SphereLayer>(layer.kind);
-  return Sphere{value_at(sphere.centre, frame), value_at(sphere.radius, frame),
-                basis_from_zxy(value_at(sphere.rotation, frame))};
+Sphere sphere_at(const SphereLayer& sphere, double frame) {
+  return {value_at(sphere.centre, frame), value_at(sphere.radius, frame),
+          basis_from_zxy(value_at(sphere.rotation, frame))};
+}
+
+/// Axes whose +y is the normal; +z is as near to the world's as possible, or to its +x.
+Basis axes_of_normal(const Vec3& normal) {
+  const Vec3 towards = std::abs(normal.z) < 0.99 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
+  const Vec3 x = normal.cross(towards).normalized();
+  return {x, normal, x.cross(normal)};
+}
+
+Surface surface_at(const Shot& shot, const LayerSurface& surface, double frame) {
+  const Layer& layer = shot.layers[surface.layer];
+  if (const auto* sphere = std::get_if<SphereLayer>(&layer.kind)) return sphere_at(*sphere, frame);
+  if (const auto* ring = std::get_if<RingLayer>(&layer.kind)) {
+    return Ring{centre_at(shot, layer, frame), axes_of_normal(value_at(ring->normal, frame).normalized()),
+                value_at(ring->inner, frame), value_at(ring->outer, frame), surface.crossing};
+  }
+  const auto* plate = std::get_if<PlateLayer>(&layer.kind);
+  if (plate && plate->distance) return Card{value_at(*plate->distance, frame), surface.crossing};
+  return plate ? Surface(Plate{}) : Surface(LatLong{});
+}
+
+/// How often light may be seen to cross the layer.
+int crossings_of(const Shot& shot, const Layer& layer) {
+  if (shot.lenses.empty()) return 1;  // straight light crosses what is flat once
+  if (std::holds_alternative<RingLayer>(layer.kind)) return kRingCrossings;
+  const auto* plate = std::get_if<PlateLayer>(&layer.kind);
+  return plate && plate->distance ? kCardCrossings : 1;
 }
 
 }  // namespace
@@ -64,7 +98,7 @@ Scene scene_at(const Shot& shot, double frame) {
   Camera& camera = scene.camera;
   camera.width = shot.camera.width;
   camera.height = shot.camera.height;
-  camera.overscan = shot.camera.overscan;
+  camera.overscan = shot.camera.overscan.value_or(0);
   camera.projection = shot.camera.projection;
   camera.fov_rad = fov_at(shot.camera, frame);
   camera.position = value_at(shot.camera.position, frame);
@@ -72,8 +106,37 @@ Scene scene_at(const Shot& shot, double frame) {
   for (const LensTrack& lens : shot.lenses) {
     scene.lenses.push_back({value_at(lens.m, frame), value_at(lens.position, frame)});
   }
-  for (const Layer& layer : shot.layers) scene.surfaces.push_back(surface_at(layer, frame));
+  for (const LayerSurface& surface : surfaces_of(shot)) {
+    scene.surfaces.push_back(surface_at(shot, surface, frame));
+  }
   return scene;
+}
+
+std::vector<LayerSurface> surfaces_of(const Shot& shot) {
+  std::vector<LayerSurface> first, more;
+  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+    if (std::holds_alternative<StarsLayer>(shot.layers[k].kind)) continue;
+    first.push_back({k, 0});
+    for (int crossing = 1; crossing < crossings_of(shot, shot.layers[k]); ++crossing) {
+      more.push_back({k, crossing});
+    }
+  }
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
+}
+
+std::vector<std::optional<std::size_t>> map_surfaces_of(const Shot& shot) {
+  std::vector<std::optional<std::size_t>> result(shot.layers.size());
+  const std::vector<LayerSurface> surfaces = surfaces_of(shot);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (surfaces[i].crossing == 0) result[surfaces[i].layer] = i;
+  }
+  return result;
+}
+
+bool has_stars(const Shot& shot) {
+  return std::any_of(shot.layers.begin(), shot.layers.end(),
+                     [](const Layer& layer) { return std::holds_alternative<StarsLayer>(layer.kind); });
 }
 
 TraceSettings trace_at(const Shot& shot, double frame) {
@@ -89,11 +152,19 @@ std::optional<Vec3> light_at(const Layer& layer, double frame) {
   return value_at(*sphere->light, frame).normalized();
 }
 
+std::optional<RingShadow> shadow_at(const Shot& shot, std::size_t layer, double frame) {
+  const auto* ring = std::get_if<RingLayer>(&shot.layers[layer].kind);
+  if (!ring || !ring->shadow_of) return std::nullopt;
+  const auto& sphere = std::get<SphereLayer>(shot.layers[ring->shadow_of->index].kind);
+  const Keyed<Vec3>& light = ring->light ? *ring->light : *sphere.light;
+  return RingShadow{sphere_at(sphere, frame), value_at(light, frame).normalized()};
+}
+
 Shot proxy_of(Shot shot, int divisor) {
   CameraTrack& camera = shot.camera;
   camera.width = std::max(1, camera.width / divisor);
   camera.height = std::max(1, camera.height / divisor);
-  camera.overscan = camera.overscan / divisor / 2 * 2;
+  if (camera.overscan) camera.overscan = *camera.overscan / divisor / 2 * 2;
   return shot;
 }
 

@@ -175,7 +175,8 @@ void sources_on_ten_planes(benchmark::State& state) {
   trace_frame(state, many_sources(count, 10), told(Law::Weak), count < 100 ? 4 : count < 1000 ? 32 : 256);
 }
 
-// Whole maps band by band, as the program writes them, by frame width and by threads; the seconds are real ones.
+// Whole maps band by band, as the program writes them, by frame width and by threads; the seconds are real
+// ones.
 void map_of_width(benchmark::State& state) {
   Scene scene = three_sources();
   scene.camera.width = static_cast<int>(state.range(0));

@@ -59,7 +59,8 @@ void print_all() {
   const Effects all{true, true, true, true, true, true, true};
   for (const Projection projection : {Projection::Perspective, Projection::LatLong, Projection::Fisheye}) {
     for (const Surface& surface :
-         {Surface(Plate{}), Surface(LatLong{}), Surface(Sphere{{0, 0, -2e9}, 3e8, {}})}) {
+         {Surface(Plate{}), Surface(LatLong{}), Surface(Sphere{{0, 0, -2e9}, 3e8, {}}), Surface(Card{1.5e9}),
+          Surface(Ring{{0, 0, -2e9}, basis_from_zxy({0.5, 0, 0.2}), 1e8, 5e8})}) {
       const Scene scene = scene_with(projection, surface);
       for (const Effects& effects : {Effects{}, all}) {
         for (const MethodName& entry : kMethodNames) {

@@ -25,7 +25,10 @@ inline Scene view_of(std::vector<Lens> lenses, double fov_rad = 20 * kDegree) {
   scene.camera.height = 15;
   scene.camera.fov_rad = fov_rad;
   scene.lenses = std::move(lenses);
-  scene.surfaces = {Plate{}, LatLong{}, Sphere{{0, 0, -2e9}, 3e8, {}}};
+  scene.surfaces = {Plate{}, LatLong{}, Sphere{{0, 0, -2e9}, 3e8, {}}, Card{1e9}, Card{3e9, 1}};
+  for (const int crossing : {0, 1, 2}) {
+    scene.surfaces.push_back(Ring{{0, 0, -1e9}, basis_from_zxy({0.2, 0, 0}), 0, 1e8, crossing});
+  }
   return scene;
 }
 

@@ -91,6 +91,10 @@ TEST(Magnification, WithoutMassesIsOneOnEverySurface) {
   Scene scene = lens_scene(0.1);
   scene.lenses.clear();
   scene.surfaces.push_back(Sphere{{0.5, 0, -5}, 3, basis_from_zxy({0.4, 1, 0})});
+  scene.surfaces.push_back(Card{7});
+  for (const double tilt : {0.5, 2.0}) {  // both sides
+    scene.surfaces.push_back(Ring{{0.5, 0, -5}, basis_from_zxy({tilt, 0.1, 0.2}), 0, 4});
+  }
   for (const Projection projection : {Projection::Perspective, Projection::LatLong, Projection::Fisheye}) {
     scene.camera.projection = projection;
     for (const double theta : {-0.03, 0.01, 0.05}) {

@@ -57,6 +57,24 @@ class RandomScenes {
     return scene;
   }
 
+  /// A scene with a card or a ring that faces the camera, before, between and behind the masses, often at the
+  /// depth of one.
+  Scene next_with_body() {
+    Scene scene = next();
+    scene.camera.projection = Projection::Perspective;
+    scene.camera.fov_rad = std::min(scene.camera.fov_rad, 2.5);
+    const Vec3 at_mass = scene.lenses.front().position;
+    const double depth = random_() % 3 == 0 ? std::abs(at_mass.z) : std::abs(at_mass.z) * spread(0.2, 5);
+    if (random_() % 2 == 0) {
+      scene.surfaces = {Card{depth}};
+    } else {
+      const double size = depth * std::tan(scene.camera.fov_rad / 2);
+      scene.surfaces = {Ring{
+          {0.3 * size * uniform(-1, 1), 0, -depth}, basis_from_zxy({kPi / 2, 0, 0}), 0.1 * size, 2 * size}};
+    }
+    return scene;
+  }
+
  private:
   void add_lens(double distance, Scene& scene) {
     const double z = distance * spread(0.1, 10);
@@ -91,13 +109,18 @@ std::optional<double> pixels_between(const Scene& scene, std::size_t k, const Su
     return s.outcome[static_cast<std::size_t>(i)] == Outcome::Hit;
   };
   if (!hit(a) || !hit(b)) return std::nullopt;
-  if (std::holds_alternative<Plate>(scene.surfaces[k])) {
+  if (std::holds_alternative<Plate>(scene.surfaces[k]) || std::holds_alternative<Card>(scene.surfaces[k])) {
     return std::hypot((a.s[i] - b.s[i]) * scene.camera.width, (a.t[i] - b.t[i]) * scene.camera.height);
   }
   if (const auto* sphere = std::get_if<Sphere>(&scene.surfaces[k])) {
     const Meeting one = meeting(*sphere, a, i), other = meeting(*sphere, b, i);
     const double aside = (one.point - other.point).cross(other.direction).length();
     return aside / one.point.length() / pixel_angle(scene.camera);
+  }
+  if (const auto* ring = std::get_if<Ring>(&scene.surfaces[k])) {
+    const Vec3 p = ring_point_from_st(*ring, {a.s[i], a.t[i]}),
+               q = ring_point_from_st(*ring, {b.s[i], b.t[i]});
+    return p.cross(q).length() / (p.length() * q.length()) / pixel_angle(scene.camera);
   }
   const Vec3 apart = sky_direction_from_st({a.s[i], a.t[i]}) - sky_direction_from_st({b.s[i], b.t[i]});
   return apart.length() / pixel_angle(scene.camera);
@@ -184,6 +207,40 @@ TEST(PlanBounds, WhatIsLeftOutMovesNothingByMoreOnBalls) {
   EXPECT_GT(tally.culled, 300);
   EXPECT_GT(tally.without_finite, 100);
   EXPECT_GT(tally.nearest_on_balls, 0.05);
+}
+
+TEST(PlanBounds, HoldOnCardsAndRings) {
+  RandomScenes scenes(8);
+  TraceSettings everything;
+  everything.law = Law::Exact;
+  everything.finite_distance = Choice::On;
+  int without_finite = 0;
+  double nearest = 0.0;  // error over tolerance
+  for (int n = 0; n < 1500; ++n) {
+    const Scene scene = scenes.next_with_body();
+    TraceSettings settings;
+    settings.tolerance_px = scenes.spread(1e-3, 1);
+    const Tracer planned(scene, plan_trace(scene, settings));
+    const Tracer reference(scene, plan_trace(scene, everything));
+    const Plan& plan = planned.plan();
+    without_finite += !plan.choices.front().on;
+    TraceBatch a = planned.make_batch(), b = reference.make_batch();
+    for (int i = 0; i < kBatchSize; ++i) {
+      a.x[i] = b.x[i] = scenes.uniform(0, scene.camera.width);
+      a.y[i] = b.y[i] = scenes.uniform(0, scene.camera.height);
+    }
+    planned.trace(a);
+    reference.trace(b);
+    for (int i = 0; i < kBatchSize; ++i) {
+      const auto error = pixels_between(scene, 0, a.surfaces[0], b.surfaces[0], i);
+      if (!error) continue;
+      ASSERT_LE(*error, plan.bound_px + kRoundingPx)
+          << "scene " << n << " surface " << scene.surfaces[0].index() << " film " << a.x[i] << " " << a.y[i];
+      nearest = std::max(nearest, *error / settings.tolerance_px);
+    }
+  }
+  EXPECT_GT(without_finite, 100);
+  EXPECT_GT(nearest, 0.01);
 }
 
 TEST(PlanBounds, WithoutLensesNothingIsLeftOut) {

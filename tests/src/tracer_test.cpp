@@ -165,9 +165,13 @@ TEST(Tracer, BatchesAgreeWithTheReferenceOnEverySurface) {
   Scene scene = seed_fig6(400);
   scene.camera.position = Vec3(3e6, -2e6, 5e7);
   scene.camera.axes = basis_looking_along(Vec3(0, 0, -kSeedDistance) - scene.camera.position, {0.1, 1, 0});
-  scene.surfaces = {
-      Plate{}, LatLong{}, Sphere{{0, 0, -kSeedDistance}, kSeedEarthRadius, basis_from_zxy({0.4, 1, 0})},
-      Sphere{{2e6, 1e6, -0.45 * kSeedDistance}, 1.2e7, {}}};  // this one reaches through a plane
+  scene.surfaces = {Plate{},
+                    LatLong{},
+                    Sphere{{0, 0, -kSeedDistance}, kSeedEarthRadius, basis_from_zxy({0.4, 1, 0})},
+                    Sphere{{2e6, 1e6, -0.45 * kSeedDistance}, 1.2e7, {}},  // this one reaches through a plane
+                    Card{3e8},
+                    Card{kSeedDistance},
+                    Ring{{2e6, 1e6, -0.5 * kSeedDistance}, basis_from_zxy({1, 0, 0.2}), 1e6, 2e7, 0}};
   const Tracer tracer(scene, plan_trace(scene, Method::ShinotsukaMakino));
   TraceBatch batch = tracer.make_batch();
   const auto film = random_film(scene.camera, kBatchSize * 40);

@@ -44,8 +44,7 @@ TEST(Compositor, LaysNearerSurfacesOverFartherOnesWhateverTheirOrder) {
   Scene scene = empty_scene(9, 9, 10);
   const Surface near = Sphere{{0, 0, -100}, 2, {}}, far = Sphere{{0, 0, -200}, 10, {}};
   scene.surfaces = {near, far, LatLong{}};
-  const SurfaceLook red{flat(kHalfRed), {}}, green{flat(kGreen), {}},
-      blue{flat(kBlue), {}};
+  const SurfaceLook red{flat(kHalfRed), {}}, green{flat(kGreen), {}}, blue{flat(kBlue), {}};
   expect_colour(take_picture(scene, {red, green, blue}).picture.at(4, 4), {0.5F, 0.5F, 0, 1});
   scene.surfaces = {LatLong{}, far, near};
   const Composite other = take_picture(scene, {blue, green, red});

@@ -108,8 +108,13 @@ TracedMap traced(const Scene& scene) {
   TraceSettings settings;
   settings.effects.jacobian = true;
   LensMap map = trace_maps(Tracer(scene, plan_trace(scene, settings))).front();
-  return {{map.width, map.height, 0, 0, map.width, map.height, false, map.s, map.t, map.valid},
-          {map.passes[0].values, map.passes[1].values, map.passes[2].values, map.passes[3].values}};
+  const auto copy = [](const FloatBuffer& values) {
+    return std::vector<float>(values.begin(), values.end());
+  };
+  const auto pass = [&](std::size_t k) { return copy(map.passes[k].values); };
+  return {
+      {map.width, map.height, 0, 0, map.width, map.height, false, copy(map.s), copy(map.t), copy(map.valid)},
+      {pass(0), pass(1), pass(2), pass(3)}};
 }
 
 double length(const Footprint& f, const MappedPicture& picture) {

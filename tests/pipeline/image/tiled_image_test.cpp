@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/image/png_writer.h"
+#include "pipeline/image/display_writer.h"
 #include "tests/pipeline/composite/reference_filter.h"
 #include "tests/pipeline/composite/tiled_file.h"
 #include "tests/pipeline/expect_failure.h"
@@ -43,7 +43,7 @@ TEST(TiledImage, TilesAreTheFilesPixels) {
 TEST(TiledImage, WhatHasNoTilesIsRefusedWithTheWayOut) {
   const TemporaryFolder folder;
   const std::string path = (folder / "plain.png").string();
-  write_png(path, numbered(10, 10), {});
+  write_display(path, numbered(10, 10), 8, {});
   const Refusal refusal = refusal_of([&] { TiledImage(path, kCacheBytes); });
   EXPECT_EQ(refusal.code, ExitCode::BadInput);
   EXPECT_EQ(refusal.line,
@@ -57,7 +57,7 @@ TEST(TiledImage, WhatHasNoTilesIsRefusedWithTheWayOut) {
 
 TEST(TiledImage, SmallImagesFitIntoMemory) {
   const TemporaryFolder folder;
-  write_png(folder / "plain.png", numbered(10, 10), {});
+  write_display(folder / "plain.png", numbered(10, 10), 8, {});
   EXPECT_FALSE(is_larger_than_memory(folder / "plain.png"));
   EXPECT_THAT(refusal_of([&] { is_larger_than_memory(folder / "none.png"); }).line,
               HasSubstr("none.png: no such image"));

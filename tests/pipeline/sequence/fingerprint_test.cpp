@@ -22,7 +22,7 @@ TEST(Fingerprint, IsTheSameForTheSameAndAnotherForEveryChange) {
   EXPECT_EQ(print_of(scene), print_of(seed_fig6(100)));
   EXPECT_EQ(print_of(scene).size(), 40U);
   std::set<std::string> prints = {print_of(scene), print_of(scene, Method::Kishi)};
-  std::vector<Scene> changed(15, scene);
+  std::vector<Scene> changed(22, scene);
   changed[0].camera.width = 101;
   changed[1].camera.overscan = 2;
   changed[2].camera.fov_rad *= 1 + 1e-15;
@@ -39,8 +39,15 @@ TEST(Fingerprint, IsTheSameForTheSameAndAnotherForEveryChange) {
   sphere(12).radius *= 1 + 1e-15;
   sphere(13).axes = basis_from_zxy({0, 0, 1e-9});
   changed[14].camera.projection = Projection::Fisheye;
+  changed[15].surfaces.push_back(Card{1});
+  changed[16].surfaces.push_back(Card{2});
+  changed[17].surfaces.push_back(Card{1, 1});
+  changed[18].surfaces.push_back(Ring{{0, 0, -1}, {}, 1, 2});
+  changed[19].surfaces.push_back(Ring{{0, 0, -1}, {}, 1, 3});
+  changed[20].surfaces.push_back(Ring{{0, 0, -1}, {}, 1, 2, 1});
+  changed[21].surfaces.push_back(Ring{{0, 1, -1}, {}, 1, 2});
   for (const Scene& other : changed) prints.insert(print_of(other));
-  EXPECT_EQ(prints.size(), 17U);
+  EXPECT_EQ(prints.size(), 24U);
 }
 
 TEST(Fingerprint, IsAnotherForEveryChangeOfThePlanThatMovesLight) {

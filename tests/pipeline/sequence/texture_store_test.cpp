@@ -45,6 +45,34 @@ TEST(TextureStore, KeepsStillsAndReadsSequencesByFrame) {
   EXPECT_EQ(refusal_of([&] { store.digest(1, 3); }).code, ExitCode::BadInput);
 }
 
+TEST(TextureStore, NightIsAnImageOfItsOwn) {
+  const TemporaryFolder folder;
+  write_grey(folder / "day.png", 1);
+  write_grey(folder / "night.png", 0);
+  folder.write("stars.csv", "Sirius");
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  const auto shot_with = [&](const std::string& night) {
+    Shot shot = example_shot(
+        {"layers.earth.light=[1, 0, 0]", "layers.earth.image=" + at("day.png"), "layers.earth.night=" + night,
+         "layers.background={name: s, type: stars, catalogue: " + at("stars.csv") + "}"});
+    return shot;
+  };
+  const ColourConfig colours = builtin();
+  const Shot both = shot_with(at("night.png")), day = shot_with("null"), missing = shot_with(at("none.png"));
+  TextureStore store(both, colours), day_store(day, colours), missing_store(missing, colours);
+  EXPECT_NEAR(store.texture(0, 1)->picture().at(0, 0)[0], 1, 1e-4);
+  EXPECT_EQ(store.night(0, 1)->picture().at(0, 0)[0], 0);
+  EXPECT_EQ(store.night(0, 1), store.night(0, 2));
+  EXPECT_EQ(day_store.night(0, 1), nullptr);
+  EXPECT_NE(store.digest(0, 1), day_store.digest(0, 1));
+  EXPECT_THAT(refusal_of([&] { missing_store.night(0, 1); }).line, HasSubstr("layers.earth.night: "));
+  EXPECT_EQ(refusal_of([&] { missing_store.digest(0, 1); }).code, ExitCode::BadInput);
+  // Stars have no image, but a file that their picture depends on.
+  const std::string before = store.digest(1, 1);
+  folder.write("stars.csv", "Vega");
+  EXPECT_NE(day_store.digest(1, 1), before);
+}
+
 TEST(TextureStore, ColoursThatTheConfigDoesNotHaveAreRefusedWithTheirPlace) {
   const auto line = [](const std::string& setting) {
     return refusal_of([&] { check_colours(example_shot({setting}), builtin()); }).line;

@@ -269,6 +269,8 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
       {"layers.earth.edge=black", "unknown key"},
       {"layers.earth.image={space: Raw}", "layers.earth.image.file: missing"},
       {"layers.earth.image={file: a.png, alpha: maybe}", "allowed: associated, straight, none"},
+      {"layers.earth.night=night.jpg", "without light there is no night"},
+      {"layers.earth.night={file: n.png, gamma: 2}", "without light there is no night"},
       {"layers.background.edge=hard", "allowed: black, clamp, mirror, repeat"},
       {"layers.background.distance=-3 m", "not greater than 0"},
       {"trace.method=newton", "allowed: kishi, shinotsuka-makino, planes, geodesic"},
@@ -277,6 +279,13 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
       {"trace.tolerance=0.1 deg", "a number of pixels is needed"},
       {"trace.effects={gravity: on}", "unknown key"},
       {"trace.effects={finite_distance: maybe}", "allowed: on, off, auto"},
+      {"sampling={rays: 4}", "sampling.rays: unknown key; allowed: max, threshold"},
+      {"sampling.max=0", "whole number from 1 to 64"},
+      {"sampling.max=128", "whole number from 1 to 64"},
+      {"sampling.max=32", "\"32\"; allowed: 1, 4, 16, 64"},
+      {"sampling.threshold=0", "not greater than 0"},
+      {"sampling.threshold=1.5", "more than 0 and up to 1"},
+      {"camera.shutter.samples=257", "whole number from 1 to 256"},
       {"output.maps=some", "allowed: all, none"},
       {"output.maps=[mars]", "allowed: earth, background"},
       {"output.data=[colour]", "allowed: jacobian, magnification, delay, direction, shadow, bends, depth"},
@@ -300,16 +309,7 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
 
 TEST(ShotReader, SaysWhatIsNotAvailableYet) {
   const std::pair<const char*, const char*> later[] = {
-      {"camera.overscan=auto", "camera.overscan: not available yet: auto"},
-      {"camera.shutter={open: -0.25, close: 0.25, samples: 8}", "camera.shutter.samples: not available yet"},
       {"camera.from=track.chan", "camera.from: not available yet"},
-      {"layers.background.distance=2e9 m", "layers.background.distance: not available yet"},
-      {"layers.background={name: s, type: stars, catalogue: c.csv, exposure: 0.5}",
-       "layers.s.type: not available yet: stars"},
-      {"layers.background={name: r, type: ring, centre: earth, normal: [0, 1, 0.3], inner: 9000 km, outer: "
-       "14000 km, "
-       "image: r.png}",
-       "layers.r.type: not available yet: ring"},
       {"layers.background={name: p, type: povray, scene: a.pov, as: plate, distance: 2e9 m}",
        "layers.p.type: not available yet: povray"},
       {"output.movie=mp4", "output.movie: not available yet: mp4"},
@@ -319,29 +319,37 @@ TEST(ShotReader, SaysWhatIsNotAvailableYet) {
     EXPECT_THAT(refusal.line, HasSubstr(expected)) << setting;
     EXPECT_EQ(refusal.code, ExitCode::BadShot);
   }
-  EXPECT_THAT(line_for("type: plate", "type: plate\n    distance: 2e9 m"),
-              HasSubstr("s.yaml:20:15: layers.background.distance: not"));
+  EXPECT_THAT(line_for("trace:", "output:\n  movie: mp4\ntrace:"),
+              HasSubstr("s.yaml:22:10: output.movie: not"));
 }
 
 TEST(ShotReader, WhatIsNotAvailableYetIsStillChecked) {
-  EXPECT_THAT(line_for_setting(
-                  "layers.background={name: r, type: ring, centre: earth, normal: [0, 1, 0], inner: 9 km, "
-                  "outer: 8 km, image: r.png}"),
-              HasSubstr("layers.r.outer: has to be larger than inner"));
-  EXPECT_THAT(line_for_setting(
-                  "layers.background={name: r, type: ring, centre: mars, normal: [0, 1, 0], inner: 9 km, "
-                  "outer: 10 km, image: r.png}"),
-              HasSubstr("no layer of this shot"));
-  EXPECT_THAT(
-      line_for_setting("layers.background={name: s, type: stars, catalogue: c.csv, exposure: bright}"),
-      HasSubstr("not a number"));
   EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, scene: a.pov, as: card}"),
               HasSubstr("allowed: plate, latlong"));
   EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, as: plate}"),
               HasSubstr("scene: missing"));
+  EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, scene: a.pov, distance: -3 m}"),
+              HasSubstr("not greater than 0"));
   // A mistake comes before what is not available.
   const Refusal refusal = refusal_of([&] { example_shot({"output.movie=mp4", "output.review=jpeg"}); });
   EXPECT_THAT(refusal.line, HasSubstr("allowed: none, png"));
+}
+
+TEST(ShotReader, ReadsSamplingShutterAndOpenOverscan) {
+  const Shot usual = example_shot();
+  EXPECT_EQ(usual.sampling.max, 64);
+  EXPECT_EQ(usual.sampling.threshold, 0.004);
+  EXPECT_EQ(usual.camera.shutter.samples, 1);
+  EXPECT_EQ(usual.camera.overscan, 0);
+  const Shot shot =
+      example_shot({"sampling={max: 16, threshold: 0.01}", "camera.overscan=auto",
+                    "camera.shutter={open: -0.5, close: {keys: {1001: 0, 1003: 0.5}}, samples: 256}"});
+  EXPECT_EQ(shot.sampling.max, 16);
+  EXPECT_EQ(shot.sampling.threshold, 0.01);
+  EXPECT_EQ(shot.camera.overscan, std::nullopt);
+  EXPECT_EQ(shot.camera.shutter.samples, 256);
+  EXPECT_EQ(value_at(shot.camera.shutter.open, 1002), -0.5);
+  EXPECT_EQ(value_at(shot.camera.shutter.close, 1002), 0.25);
 }
 
 TEST(ShotReader, PathsAreRelativeToTheShotFile) {
@@ -353,6 +361,11 @@ TEST(ShotReader, PathsAreRelativeToTheShotFile) {
   EXPECT_EQ(shot.layers[0].image.pattern.text, "lensplane:textures/earth_day.jpg");
   EXPECT_EQ(shot.layers[1].image.pattern.text, (folder / "bg.####.exr").string());
   EXPECT_EQ(read_shot(path).output.directory, folder / "renders/example");
+  const Shot more = read_shot(path, {"layers.earth.light=[1, 0, 0]", "layers.earth.night=../night.jpg",
+                                     "layers.background={name: s, type: stars, catalogue: stars.csv}"});
+  EXPECT_EQ(std::get<SphereLayer>(more.layers[0].kind).night->pattern.text,
+            (folder.path().parent_path() / "night.jpg").string());
+  EXPECT_EQ(std::get<StarsLayer>(more.layers[1].kind).catalogue.text, (folder / "stars.csv").string());
 }
 
 }  // namespace

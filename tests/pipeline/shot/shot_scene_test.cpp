@@ -24,6 +24,69 @@ TEST(ShotScene, IsTheShotAtItsFrame) {
   EXPECT_TRUE(std::holds_alternative<Plate>(scene.surfaces[1]));
 }
 
+/// The example with a ring in the place of its plate.
+Shot with_ring(const std::vector<std::string>& more = {}) {
+  std::vector<std::string> settings = {
+      "layers.earth.light=[0, 0, 2]",
+      "layers.background={name: ring, type: ring, centre: earth, normal: [0, 3, 4], inner: 8e6 m, outer: "
+      "1e7 m, image: r.png, shadow_of: earth}"};
+  settings.insert(settings.end(), more.begin(), more.end());
+  return example_shot(settings);
+}
+
+TEST(ShotScene, RingsStandAroundTheirSphere) {
+  const Scene scene = scene_at(with_ring(), 1001);
+  const auto& ring = std::get<Ring>(scene.surfaces[1]);
+  EXPECT_EQ(ring.centre, std::get<Sphere>(scene.surfaces[0]).centre);
+  EXPECT_LT((ring.axes.y - Vec3(0, 0.6, 0.8)).length(), 1e-15);
+  EXPECT_LT((ring.axes.x.cross(ring.axes.y) - ring.axes.z).length(), 1e-15);
+  EXPECT_EQ(ring.inner, 8e6);
+  EXPECT_EQ(ring.outer, 1e7);
+  EXPECT_TRUE(
+      is_valid(std::get<Ring>(scene_at(with_ring({"layers.ring.normal=[0, 0, 1]"}), 1001).surfaces[1]).axes));
+  const Vec3 towards =
+      -scene_at(with_ring({"camera.look_at=ring", "camera.position=[1 m, 0 m, 0 m]"}), 1001).camera.axes.z;
+  EXPECT_LT((towards - Vec3(-1, 0, -1.09e9).normalized()).length(), 1e-15);
+}
+
+TEST(ShotScene, LayersThatLightCrossesAgainHaveFurtherSurfaces) {
+  const auto listed = [](const Shot& shot) {
+    std::string text;
+    for (const LayerSurface& s : surfaces_of(shot)) {
+      text += std::to_string(s.layer) + "." + std::to_string(s.crossing) + " ";
+    }
+    EXPECT_EQ(scene_at(shot, 1001).surfaces.size(), surfaces_of(shot).size());
+    return text;
+  };
+  EXPECT_EQ(listed(example_shot()), "0.0 1.0 ");
+  EXPECT_EQ(listed(with_ring()), "0.0 1.0 1.1 1.2 ");
+  EXPECT_EQ(std::get<Ring>(scene_at(with_ring(), 1001).surfaces[3]).crossing, 2);
+  EXPECT_EQ(listed(with_ring({"lenses=[]"})), "0.0 1.0 ");
+  const Shot card = example_shot({"layers.background.distance={keys: {1001: 1 m, 1003: 3 m}}"});
+  EXPECT_EQ(listed(card), "0.0 1.0 1.1 ");
+  EXPECT_EQ(std::get<Card>(scene_at(card, 1002).surfaces[1]).distance, 2);
+  EXPECT_EQ(std::get<Card>(scene_at(card, 1002).surfaces[2]).crossing, 1);
+}
+
+TEST(ShotScene, StarsHaveNoSurface) {
+  const Shot shot = example_shot({"layers.earth={name: s, type: stars, catalogue: c.csv}"});
+  const std::vector<LayerSurface> surfaces = surfaces_of(shot);
+  ASSERT_EQ(surfaces.size(), 1U);
+  EXPECT_EQ(surfaces[0].layer, 1U);
+  EXPECT_TRUE(std::holds_alternative<Plate>(scene_at(shot, 1001).surfaces[0]));
+  EXPECT_EQ(map_surfaces_of(shot), (std::vector<std::optional<std::size_t>>{std::nullopt, 0U}));
+}
+
+TEST(ShotScene, ShadowsFallFromTheirSphereAwayFromTheLight) {
+  const auto shadow = shadow_at(with_ring(), 1, 1001);
+  ASSERT_TRUE(shadow);
+  EXPECT_EQ(shadow->light, Vec3(0, 0, 1));
+  EXPECT_EQ(shadow->sphere.radius, 6.371e6);
+  EXPECT_EQ(shadow_at(with_ring({"layers.ring.light=[0, 5, 0]"}), 1, 1001)->light, Vec3(0, 1, 0));
+  EXPECT_FALSE(shadow_at(with_ring({"layers.ring.shadow_of=null"}), 1, 1001));
+  EXPECT_FALSE(shadow_at(with_ring(), 0, 1001));
+}
+
 TEST(ShotScene, FocalLengthAndFilmWidthMakeTheFieldOfView) {
   Shot shot = example_shot();
   shot.camera.fov = FocalLength{Keyed<double>::constant(0.018), Keyed<double>::constant(0.036), {}};
@@ -85,7 +148,8 @@ TEST(ShotScene, ProxyKeepsTheViewAndEvenOverscan) {
   EXPECT_EQ(shot.camera.width, 480);
   EXPECT_EQ(shot.camera.height, 270);
   EXPECT_EQ(shot.camera.overscan, 24);
-  EXPECT_EQ(proxy_of(shot, 64).camera.overscan % 2, 0);
+  EXPECT_EQ(*proxy_of(shot, 64).camera.overscan % 2, 0);
+  EXPECT_EQ(proxy_of(example_shot({"camera.overscan=auto"}), 4).camera.overscan, std::nullopt);
   EXPECT_EQ(proxy_of(example_shot(), 64).camera.width, 1);
 }
 
