@@ -110,13 +110,20 @@ void trace_tile(const Tracer& tracer, const Tile& tile, RowRange rows, TraceBatc
   }
 }
 
-LensMap unset_map(int width, int height, const Effects& effects) {
+/// Makes room in `map` for so many pixels; what it holds is not kept.
+void make_room(int width, int height, const Effects& effects, LensMap& map) {
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  LensMap map{width, height, FloatBuffer(pixels), FloatBuffer(pixels), FloatBuffer(pixels), {}};
+  map.width = width;
+  map.height = height;
+  for (FloatBuffer* values : {&map.s, &map.t, &map.valid}) values->resize(pixels);
+  std::size_t pass = 0;
   for (const Channel& channel : kChannels) {
-    if (effects.*channel.effect) map.passes.push_back({channel.name, FloatBuffer(pixels)});
+    if (!(effects.*channel.effect)) continue;
+    if (pass == map.passes.size()) map.passes.emplace_back();
+    map.passes[pass].channel = channel.name;
+    map.passes[pass++].values.resize(pixels);
   }
-  return map;
+  map.passes.resize(pass);
 }
 
 }  // namespace
@@ -125,13 +132,11 @@ std::vector<LensMap> trace_maps(const Tracer& tracer) {
   return trace_maps(tracer, {0, tracer.camera().full_height()});
 }
 
-std::vector<LensMap> trace_maps(const Tracer& tracer, RowRange rows) {
+std::vector<LensMap> trace_maps(const Tracer& tracer, RowRange rows, std::vector<LensMap> maps) {
   const int width = tracer.camera().full_width();
   const int size = tracer.plan().tiles.size;
-  std::vector<LensMap> maps;
-  for (std::size_t k = 0; k < tracer.surfaces().size(); ++k) {
-    maps.push_back(unset_map(width, rows.end - rows.begin, tracer.plan().effects));
-  }
+  maps.resize(tracer.surfaces().size());
+  for (LensMap& map : maps) make_room(width, rows.end - rows.begin, tracer.plan().effects, map);
   const int columns = (width + size - 1) / size;
   const int first = rows.begin / size;
   const int last = (rows.end + size - 1) / size;

@@ -73,8 +73,8 @@ Wrap wrap_of(const WarpOptions& warp) {
   return static_cast<Wrap>(std::find(kNames.begin(), kNames.end(), warp.edge) - kNames.begin());
 }
 
-std::vector<Footprint> footprints_of(const WarpOptions& warp, const StMap& map, const Picture& picture) {
-  if (warp.filter == "none") return std::vector<Footprint>(map.s.size());
+std::vector<Footprint> footprints_by_jacobian(const WarpOptions& warp, const StMap& map,
+                                              const Picture& picture) {
   const Wrap wrap = wrap_of(warp);
   const MappedPicture mapped{picture.display_width, picture.display_height,
                              wrap == Wrap::Globe || wrap == Wrap::Repeat, wrap == Wrap::Repeat};
@@ -88,6 +88,16 @@ std::vector<Footprint> footprints_of(const WarpOptions& warp, const StMap& map, 
                     fmt::format("{}: it has no jacobian.ds_dx, ds_dy, dt_dx, dt_dy", warp.data));
   }
   return footprints_from_differences(map, mapped);
+}
+
+/// An image has been through the filter of its own pixels: what is shown as large as it is stays as sharp.
+/// A little more is spared than that filter, so that the rounding of a map does not blur.
+std::vector<Footprint> footprints_of(const WarpOptions& warp, const StMap& map, const Picture& picture) {
+  const Footprint point{.scale = 0};
+  if (warp.filter == "none") return std::vector<Footprint>(map.s.size(), point);
+  std::vector<Footprint> footprints = footprints_by_jacobian(warp, map, picture);
+  for (Footprint& footprint : footprints) footprint.spared = 1.02 * kPixelSigma * kPixelSigma;
+  return footprints;
 }
 
 void write(const WarpOptions& warp, const ColourConfig& colours, const Picture& picture, SampleType type,

@@ -23,6 +23,11 @@ Covariance covariance_in_texels(const Footprint& footprint, int width, int heigh
   return {xx * xx + xy * xy, xx * yx + xy * yy, yx * yx + yy * yy};
 }
 
+Covariance covariance_from(const Axes& axes) {
+  const double more = axes.major - axes.minor;
+  return {axes.minor + more * axes.x * axes.x, more * axes.x * axes.y, axes.minor + more * axes.y * axes.y};
+}
+
 Axes axes_of(const Covariance& covariance) {
   const double mean = (covariance.xx + covariance.yy) / 2;
   const double half = (covariance.xx - covariance.yy) / 2;

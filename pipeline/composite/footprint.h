@@ -21,7 +21,10 @@ struct Footprint {
   double ds_dy = 0;
   double dt_dx = 0;
   double dt_dy = 0;
-  double scale = 1;  // the filter's width in units of kPixelSigma: less than 1 for rays within a pixel
+  double scale = 1;  // the filter's width in units of kPixelSigma: less than 1 for rays within a pixel, 0 for
+                     // a point
+  double spared = 0;  // variance in texels that is taken off both axes: by so much the picture has been
+                      // filtered already
 };
 
 bool is_finite(const Footprint& footprint);
@@ -45,5 +48,8 @@ struct Axes {
 };
 
 Axes axes_of(const Covariance& covariance);
+
+/// The ellipse with these axes.
+Covariance covariance_from(const Axes& axes);
 
 }  // namespace lensplane

@@ -16,7 +16,7 @@ namespace lensplane {
 
 /// How a point is seen.
 struct PointSpread {
-  double sigma_px = 0.6;  // standard deviation in pixels, > 0
+  double sigma_px = 0.6;  // standard deviation in pixels, > 0 and up to 7
 
   /// Pixels from its middle beyond which a dot has no light: ImageSearch::margin_px should be as large.
   double reach_px() const { return 4.0 * sigma_px + 1.0; }

@@ -51,6 +51,7 @@ Rgba Texture::lookup(TextureCoordinates st) const {
 }
 
 Rgba Texture::filtered(TextureCoordinates st, const Footprint& footprint) const {
+  if (footprint.scale == 0) return lookup(st);
   return with_reader(source_, wrap_, [&](auto& texels) { return filtered_texels(texels, st, footprint); });
 }
 

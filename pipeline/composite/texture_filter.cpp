@@ -109,8 +109,13 @@ Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint) {
   const TexelWindow& window = texels.levels().front().window;
   const Covariance whole = covariance_in_texels(footprint, window.display_width, window.display_height);
   const double scale = std::clamp(footprint.scale, 0.0, 1e3);
-  const Covariance pixel = limited(scaled(whole, scale, scale), window, texels.wrap());
-  const Axes axes = axes_of(pixel);
+  Covariance pixel = limited(scaled(whole, scale, scale), window, texels.wrap());
+  Axes axes = axes_of(pixel);
+  if (footprint.spared > 0) {
+    axes.major = std::max(0.0, axes.major - footprint.spared);
+    axes.minor = std::max(0.0, axes.minor - footprint.spared);
+    pixel = covariance_from(axes);
+  }
   const double minor = std::sqrt(axes.minor);
   if (minor >= kEllipseOnly || kTexelsPerLength * std::sqrt(axes.major) > kMostTexels) {
     return elliptical(texels, st, pixel);

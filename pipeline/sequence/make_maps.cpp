@@ -99,9 +99,10 @@ void make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport
   PhaseCost& writing = report[Phase::Write];
   const int height = camera.full_height();
   int band = TileLevels{}.size;  // one row of tiles, which says how many fit into a band
+  std::vector<LensMap> maps;
   for (int row = 0; row < height;) {
     const RowRange rows{row, std::min(height, row + band)};
-    const auto maps = timed(tracing.seconds, [&] { return trace_maps(tracer, rows); });
+    maps = timed(tracing.seconds, [&] { return trace_maps(tracer, rows, std::move(maps)); });
     timed(writing.seconds, [&] {
       for (LayerFile& file : files) file.write(maps, window);
     });

@@ -42,7 +42,7 @@ const Rgba kRed{1, 0, 0, 1}, kGreen{0, 1, 0, 1}, kBlue{0, 0, 1, 1}, kHalfRed{0.5
 
 TEST(Compositor, LaysNearerSurfacesOverFartherOnesWhateverTheirOrder) {
   Scene scene = empty_scene(9, 9, 10);
-  const Surface near = Sphere{{0, 0, -100}, 2, {}}, far = Sphere{{0, 0, -200}, 10, {}};
+  const Surface near = Sphere{{0, 0, -100}, 6, {}}, far = Sphere{{0, 0, -200}, 14, {}};
   scene.surfaces = {near, far, LatLong{}};
   const SurfaceLook red{flat(kHalfRed), {}}, green{flat(kGreen), {}}, blue{flat(kBlue), {}};
   expect_colour(take_picture(scene, {red, green, blue}).picture.at(4, 4), {0.5F, 0.5F, 0, 1});
