@@ -5,126 +5,145 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
-#include "pipeline/composite/cubic_spline.h"
+#include "pipeline/composite/gaussian_window.h"
+#include "pipeline/composite/surface_kernel.h"
 #include "pipeline/composite/weighted_sum.h"
+#include "src/batch.h"
 
 namespace lensplane {
 namespace {
 
-// The Gaussian's reach in standard deviations, here and along the longer axis: one part in a thousand lies
-// beyond.
-constexpr double kReach = 3.2;
+// The variance of the triangle.
+constexpr double kTriangleVariance = 1.0 / 6;
 
-// A triangle reaches 1 texel, a spline 2; more than kReach of the Gaussian beside the one, and a standard
-// deviation beside the other, count for nothing.
-constexpr int kMostTaps = static_cast<int>(2 * (1 + kReach * kLargestCloseSigma)) + 1;
-
-/// z Phi(z) + phi(z), the second integral of the normal distribution's density phi, from a table.
-class RampIntegral {
- public:
-  RampIntegral() {
-    for (int i = 0; i <= kSteps + 1; ++i) {
-      const double z = i / kPerUnit - kEnd;
-      const double density = std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi);
-      const double value = z * std::erfc(-z / std::numbers::sqrt2) / 2 + density;
-      values_[static_cast<std::size_t>(i)] = std::abs(z) < kEnd ? value : std::max(z, 0.0);
-    }
-  }
-  double operator()(double z) const {
-    // Beyond the table the function is straight.
-    const double inside = std::min(std::max(z, -kEnd), kEnd);
-    const double place = (inside + kEnd) * kPerUnit;
-    const auto i = static_cast<int>(place);
-    const double before = values_[static_cast<std::size_t>(i)],
-                 after = values_[static_cast<std::size_t>(i) + 1];
-    return before + (after - before) * (place - i) + std::max(z - kEnd, 0.0);
-  }
-
- private:
-  static constexpr double kEnd = 5;
-  static constexpr double kPerUnit = 128;
-  static constexpr int kSteps = static_cast<int>(2 * kEnd * kPerUnit);
-  std::array<double, kSteps + 2> values_;
+/// The whole numbers from `first` to `last`.
+struct Span {
+  int first, last;
 };
 
-/// Weights of texels along one axis.
-struct Taps {
-  int first = 0;
-  int count = 0;
-  std::array<float, kMostTaps> weights;
-};
-
-/// The weights of the texels around `x` for a Gaussian of `sigma` over the surface.
-Taps taps_around(double x, double sigma, double smoothness) {
-  static const RampIntegral ramp_integral;
-  const double reach = std::max(1 + kReach * sigma, smoothness > 0 ? 2 + sigma : 0);
-  Taps taps;
-  taps.first = static_cast<int>(std::ceil(x - reach));
-  taps.count = std::min(static_cast<int>(std::floor(x + reach)) - taps.first + 1, kMostTaps);
-  const double start = taps.first - x;
-  // The triangle's convolution with the Gaussian: the second difference of the ramp's.
-  std::array<double, kMostTaps + 2> ramp;
-  const double per_sigma = 1 / sigma;
-  for (int i = 0; i < taps.count + 2; ++i) {
-    ramp[static_cast<std::size_t>(i)] = ramp_integral((start + (i - 1)) * per_sigma);
-  }
-  for (std::size_t i = 0; i < static_cast<std::size_t>(taps.count); ++i) {
-    double weight = sigma * (ramp[i] - 2 * ramp[i + 1] + ramp[i + 2]);
-    // The spline is smooth: two points stand for the narrow Gaussian.
-    if (smoothness > 0) {
-      const double d = start + static_cast<double>(i);
-      const double spline = (cubic_spline(d - sigma) + cubic_spline(d + sigma)) / 2;
-      weight += smoothness * (spline - weight);
-    }
-    taps.weights[i] = static_cast<float>(weight);
-  }
-  return taps;
+Span span_around(double middle, double reach) {
+  return {static_cast<int>(std::ceil(middle - reach)), static_cast<int>(std::floor(middle + reach))};
 }
 
-RowSum row_sum(Texels& texels, const Taps& columns, int row) {
-  RowSum sum;
-  for (int i = 0; i < columns.count;) {
-    const TexelRun run = texels.run(0, columns.first + i, row);
-    const int count = std::min(run.count, columns.count - i);
-    for (int k = 0; k < count; ++k) sum.add(columns.weights[static_cast<std::size_t>(i + k)], run.texels[k]);
-    i += count;
+/// What columns (or rows) weigh together along the longer axis.
+class Marginal {
+ public:
+  Marginal(double middle, double variance, double smoothness) {
+    if (variance <= kLargestCloseSigma * kLargestCloseSigma) {
+      const SurfaceKernel kernel(variance, smoothness);
+      span_ = span_around(middle, kernel.reach());
+      for (int i = span_.first; i <= span_.last; ++i) at(i) = kernel(static_cast<float>(i - middle));
+      return;
+    }
+    // One dimension's share of the window loses a little less variance than two do.
+    const double widened = (variance + kTriangleVariance) / 0.94;
+    span_ = span_around(middle, std::sqrt(static_cast<double>(kCut) * widened));
+    for (int i = span_.first; i <= span_.last; ++i) {
+      const double q = (i - middle) * (i - middle) / widened;
+      at(i) = std::max(0.0F, gaussian(static_cast<float>(q)) - kEdgeWeight);
+    }
   }
+
+  Span span() const { return span_; }
+  /// The weights from number `i` on.
+  const float* from(int i) const { return &weights_[static_cast<std::size_t>(i - span_.first)]; }
+
+ private:
+  float& at(int i) { return weights_[static_cast<std::size_t>(i - span_.first)]; }
+
+  static constexpr int kMost = static_cast<int>(2 * 3.3 * kLongestCloseSigma) + 8;
+  Span span_{};
+  std::array<float, kMost> weights_;
+};
+
+/// The spread within a column (or a row): about a middle that moves by `slant` from one to the next.
+struct Conditional {
+  double slant;
+  SurfaceKernel kernel;
+};
+
+/// `along`, `across`: variances on the longer axis and on the other.
+Conditional conditional(double along, double across, double between, double smoothness) {
+  const double slant = between / (along + kTriangleVariance);
+  return {slant, SurfaceKernel(std::max(0.0, across - slant * between), smoothness)};
+}
+
+/// The sum of texels side by side, number n by weight(n).
+template <class Weight>
+[[gnu::always_inline]] inline RowSum sum_of(const Rgba* texels, int count, Weight weight) {
+  RowSum sum;
+  for (int n = 0; n < count; ++n) sum.add(weight(n), texels[n]);
   return sum;
 }
 
-/// Points along the longer axis, in standard deviations `along` of what it is longer by: they stand for a
-/// Gaussian. Few suffice where the surface hardly bends between them (Gauss's formulas); many are evenly
-/// spaced, at most one standard deviation apart.
-template <class Use>
-void for_each_point(double along, Use use) {
-  if (along < 1e-3) return use(0.0, 1.0);
-  if (along < 0.15) return use(-1.0, 0.5), use(1.0, 0.5);
-  if (along < 0.45) {
-    return use(-std::numbers::sqrt3, 1.0 / 6), use(0.0, 2.0 / 3), use(std::numbers::sqrt3, 1.0 / 6);
+/// The ellipse is longer along rows: columns are weighed, and within each its rows.
+LENSPLANE_KERNEL Rgba mean_along_rows(Texels& texels, double x, double y, const Marginal& columns,
+                                      const Conditional& within) {
+  const Span all = columns.span();
+  const SurfaceKernel& kernel = within.kernel;
+  const double reach = kernel.reach();
+  const double sway = std::abs(within.slant) * std::max(x - all.first, all.last - x);
+  const Span rows = span_around(y, reach + sway);
+  const auto slant = static_cast<float>(within.slant);
+  WeightedSum total;
+  for (int row = rows.first; row <= rows.last; ++row) {
+    Span in_row = all;
+    if (sway > 1) {
+      const double middle = x + (row - y) / within.slant, half = reach / std::abs(within.slant);
+      in_row.first = static_cast<int>(std::ceil(std::max(static_cast<double>(all.first), middle - half)));
+      in_row.last = static_cast<int>(std::floor(std::min(static_cast<double>(all.last), middle + half)));
+      if (in_row.last < in_row.first) continue;
+    }
+    const int count = in_row.last - in_row.first + 1;
+    const Rgba* texel = texels.row(0, in_row.first, row, count);
+    const float* column = columns.from(in_row.first);
+    const auto away = static_cast<float>(row - y - within.slant * (in_row.first - x));
+    if (kernel.is_triangle()) {
+      const auto weight = [=](int n) {
+        return column[n] * kernel.triangle(away - slant * static_cast<float>(n));
+      };
+      total.add(1, sum_of(texel, count, weight));
+    } else {
+      const auto weight = [=](int n) { return column[n] * kernel(away - slant * static_cast<float>(n)); };
+      total.add(1, sum_of(texel, count, weight));
+    }
   }
-  constexpr double kTexelsApart = 0.5;
-  const double step = std::min(1.0, kTexelsApart / along);
-  const int last = static_cast<int>(kReach / step);
-  for (int i = -last; i <= last; ++i) use(i * step, std::exp(-0.5 * (i * step) * (i * step)));
+  return total.mean();
+}
+
+/// The ellipse is longer along columns: rows are weighed, and within each its columns.
+LENSPLANE_KERNEL Rgba mean_along_columns(Texels& texels, double x, double y, const Marginal& rows,
+                                         const Conditional& within) {
+  const SurfaceKernel& kernel = within.kernel;
+  const double reach = kernel.reach();
+  WeightedSum total;
+  for (int row = rows.span().first; row <= rows.span().last; ++row) {
+    const double middle = x + within.slant * (row - y);
+    const Span columns = span_around(middle, reach);
+    const int count = columns.last - columns.first + 1;
+    const Rgba* texel = texels.row(0, columns.first, row, count);
+    const auto away = static_cast<float>(columns.first - middle);
+    const auto by = static_cast<double>(*rows.from(row));
+    if (kernel.is_triangle()) {
+      total.add(by,
+                sum_of(texel, count, [=](int n) { return kernel.triangle(away + static_cast<float>(n)); }));
+    } else {
+      total.add(by, sum_of(texel, count, [=](int n) { return kernel(away + static_cast<float>(n)); }));
+    }
+  }
+  return total.mean();
 }
 
 }  // namespace
 
-Rgba close_mean(Texels& texels, double x, double y, const Axes& axes, Smoothness smoothness) {
-  const double round = std::clamp(std::sqrt(axes.minor), 1e-4, kLargestCloseSigma);
-  const double along = std::sqrt(std::max(0.0, axes.major - axes.minor));
-  WeightedSum total;
-  for_each_point(along, [&](double point, double weight) {
-    const Taps columns = taps_around(x + point * along * axes.x, round, smoothness.x);
-    const Taps rows = taps_around(y + point * along * axes.y, round, smoothness.y);
-    for (int i = 0; i < rows.count; ++i) {
-      const auto by = static_cast<double>(rows.weights[static_cast<std::size_t>(i)]);
-      total.add(weight * by, row_sum(texels, columns, rows.first + i));
-    }
-  });
-  return total.mean();
+Rgba close_mean(Texels& texels, double x, double y, const Covariance& pixel, Smoothness smoothness) {
+  if (pixel.xx >= pixel.yy) {
+    return mean_along_rows(texels, x, y, Marginal(x, pixel.xx, smoothness.x),
+                           conditional(pixel.xx, pixel.yy, pixel.xy, smoothness.y));
+  }
+  return mean_along_columns(texels, x, y, Marginal(y, pixel.yy, smoothness.y),
+                            conditional(pixel.yy, pixel.xx, pixel.xy, smoothness.x));
 }
 
 }  // namespace lensplane

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The filter for footprints of about a texel and less: the picture is a surface between its texels, and the
-// pixel filter's integral over that surface is taken exactly.
+// The filter for footprints whose shorter axis is about a texel and less: the picture is a surface between
+// its texels, and the pixel filter's integral over that surface is taken.
 //
 // Texels are joined by a bilinear surface (weights: the triangle), or by a cubic B-spline where the picture
 // is magnified so much that the bilinear surface's creases would show; anything between the two is allowed,
-// for each axis. The Gaussian is a round one, moved along the longer axis of the ellipse.
+// for each axis. The ellipse is taken apart along the axis, columns or rows, in which it is the longer: what
+// all texels of one column weigh together, and how that is spread within the column, about a middle that
+// moves from column to column. Both are exact up to second moments, and so is the whole.
 
 #pragma once
 
@@ -21,10 +23,13 @@ struct Smoothness {
 };
 
 /// Standard deviation of the shorter axis that the filter is made for, in texels.
-inline constexpr double kLargestCloseSigma = 0.6;
+inline constexpr double kLargestCloseSigma = 0.7;
+
+/// Standard deviation of the longer axis that it can hold, in texels.
+inline constexpr double kLongestCloseSigma = 150;
 
 /// The mean of the finest level's surface around (x, y), counted in texels from the centre of the first.
-/// `axes`: the pixel filter; `minor` at most the square of kLargestCloseSigma.
-Rgba close_mean(Texels& texels, double x, double y, const Axes& axes, Smoothness smoothness);
+/// `pixel`: the pixel filter, within the two limits.
+Rgba close_mean(Texels& texels, double x, double y, const Covariance& pixel, Smoothness smoothness);
 
 }  // namespace lensplane

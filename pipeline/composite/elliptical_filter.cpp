@@ -5,36 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/composite/gaussian_window.h"
 #include "pipeline/composite/weighted_sum.h"
+#include "src/batch.h"
 
 namespace lensplane {
 namespace {
 
-// The Gaussian is exp(-q/2); q = kCut is its edge.
-constexpr float kCut = 10;
-
-/// exp(-q/2) for q in [0, kCut] within 4e-4 of itself, for a number or several at once: the exponential
-/// series of a sixteenth, four times squared.
-template <class Number>
-constexpr Number gaussian(Number q) {
-  const Number z = q * (1.0F / 32);
-  Number power = 1.0F - z * (1.0F - z * (0.5F - z * (1.0F / 6 - z * (1.0F / 24))));
-  power *= power;
-  power *= power;
-  power *= power;
-  return power * power;
-}
-
-constexpr float kEdgeWeight = gaussian(kCut);
-
-// What ending at kCut and lowering leave of the variance: with H = kCut/2 and e = exp(-H),
-// (1 - e (1 + H + H^2/2)) / (1 - e (1 + H)) = 0.9123.
-constexpr double kVarianceLeft = 0.91225;
-
 /// Adds `count` texels of a row; the first lies `offset` from the row's centre, and q = per_variance d^2 +
 /// base.
-void add_run(const Rgba* texels, int count, float offset, float per_variance, float base,
-             WeightedSum& total) {
+[[gnu::always_inline]] inline void add_row(const Rgba* texels, int count, float offset, float per_variance,
+                                           float base, WeightedSum& total) {
   RowSum sum;
   for (int first = 0; first < count; first += 4) {
     const Float4 d = (offset + static_cast<float>(first)) + Float4{0, 1, 2, 3};
@@ -48,7 +29,8 @@ void add_run(const Rgba* texels, int count, float offset, float per_variance, fl
 
 }  // namespace
 
-Rgba elliptical_mean(Texels& texels, int level, double x, double y, const Covariance& wanted) {
+LENSPLANE_KERNEL Rgba elliptical_mean(Texels& texels, int level, double x, double y,
+                                      const Covariance& wanted) {
   const Covariance c{wanted.xx / kVarianceLeft, wanted.xy / kVarianceLeft, wanted.yy / kVarianceLeft};
   // The Gaussian in a row: its centre moves by `slant` from row to row, its variance is the same in all.
   const double slant = c.xy / c.yy;
@@ -62,13 +44,10 @@ Rgba elliptical_mean(Texels& texels, int level, double x, double y, const Covari
     const double half = std::sqrt(std::max(0.0, (kCut - base) * variance));
     const double centre = x + slant * down;
     const int end = static_cast<int>(std::floor(centre + half)) + 1;
-    for (int column = static_cast<int>(std::ceil(centre - half)); column < end;) {
-      const TexelRun run = texels.run(level, column, row);
-      const int count = std::min(run.count, end - column);
-      add_run(run.texels, count, static_cast<float>(column - centre), static_cast<float>(1 / variance),
-              static_cast<float>(base), total);
-      column += count;
-    }
+    const int first = static_cast<int>(std::ceil(centre - half));
+    if (first >= end) continue;
+    add_row(texels.row(level, first, row, end - first), end - first, static_cast<float>(first - centre),
+            static_cast<float>(1 / variance), static_cast<float>(base), total);
   }
   return total.mean();
 }

@@ -2,11 +2,12 @@
 //
 // What filters read: the texels of a pyramid's levels, wherever they are kept.
 //
-// A reader lives for one lookup, in one thread. Texels come in runs, as many as lie side by side in memory,
-// so that filters walk rows without asking for every texel.
+// A reader lives for one lookup, in one thread. Texels come by rows, so that filters do not ask for every
+// texel.
 
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "pipeline/composite/texel_window.h"
@@ -39,7 +40,18 @@ class Texels {
   const std::vector<TexelLevel>& levels() const { return levels_; }
   Wrap wrap() const { return wrap_; }
 
-  /// The texel at any position of a level, and what follows it on its right. Valid until the next call.
+  /// `count` > 0 texels side by side, the first at any position of a level. Valid until the next call.
+  const Rgba* row(int level, int column, int row, int count) {
+    const TexelWindow& window = levels_[static_cast<std::size_t>(level)].window;
+    if (window.stores(column, row) && window.stores(column + count - 1, row)) {
+      const TexelRun run = stored(level, {column, row, count});
+      if (run.count >= count) return run.texels;
+    }
+    return gathered(level, column, row, count);
+  }
+
+ private:
+  /// The texel at any position of a level, and what follows it on its right.
   TexelRun run(int level, int column, int row) {
     static constexpr Rgba kClear{0, 0, 0, 0};
     const TexelWindow& window = levels_[static_cast<std::size_t>(level)].window;
@@ -48,12 +60,23 @@ class Texels {
     return place.count > 0 ? stored(level, place) : TexelRun{&kClear, 1};
   }
 
- private:
+  const Rgba* gathered(int level, int column, int row, int count) {
+    gathered_.resize(static_cast<std::size_t>(count));
+    for (int i = 0; i < count;) {
+      const TexelRun next = run(level, column + i, row);
+      const int taken = std::min(next.count, count - i);
+      std::copy_n(next.texels, taken, gathered_.begin() + i);
+      i += taken;
+    }
+    return gathered_.data();
+  }
+
   /// At most `place.count` texels, at least one.
   virtual TexelRun stored(int level, const TexelPlace& place) = 0;
 
   const std::vector<TexelLevel>& levels_;
   Wrap wrap_;
+  std::vector<Rgba> gathered_;
 };
 
 }  // namespace lensplane

@@ -32,7 +32,7 @@ Rgba bilinear(Texels& texels, TextureCoordinates st) {
   const int row = clamped_floor(y);
   const auto right = static_cast<float>(std::clamp(x - column, 0.0, 1.0));
   const auto down = static_cast<float>(std::clamp(y - row, 0.0, 1.0));
-  const auto texel = [&](int i, int j) { return *texels.run(0, i, j).texels; };
+  const auto texel = [&](int i, int j) { return *texels.row(0, i, j, 1); };
   const Rgba a = texel(column, row), b = texel(column + 1, row);
   const Rgba c = texel(column, row + 1), d = texel(column + 1, row + 1);
   Rgba colour;
@@ -51,7 +51,7 @@ Rgba Texture::lookup(TextureCoordinates st) const {
 }
 
 Rgba Texture::filtered(TextureCoordinates st, const Footprint& footprint) const {
-  if (footprint.scale == 0) return lookup(st);
+  if (footprint.scale == 0 && std::isfinite(st.s) && std::isfinite(st.t)) return lookup(st);
   return with_reader(source_, wrap_, [&](auto& texels) { return filtered_texels(texels, st, footprint); });
 }
 

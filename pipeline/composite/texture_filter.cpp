@@ -16,16 +16,9 @@ namespace {
 // The variance of the triangle, that is, of bilinear interpolation.
 constexpr double kTriangleVariance = 1.0 / 6;
 
-// The shorter axis, in texels, from which on the elliptical filter has its share, and all.
-constexpr double kEllipseStarts = 0.5;
-constexpr double kEllipseOnly = kLargestCloseSigma;
-
 // Texels are this many pixels large where the surface starts to be cubic, and where it is.
 constexpr double kCubicStarts = 2;
 constexpr double kCubicOnly = 4;
-
-// The close filter reads a patch of texels for each of its points, two to a texel.
-constexpr double kTexelsPerLength = 200;
 
 double smooth_step(double from, double to, double x) {
   const double share = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -78,7 +71,7 @@ struct TexelPosition {
   double x, y;
 };
 TexelPosition position_on(const TexelWindow& window, TextureCoordinates st) {
-  constexpr double kFar = 1e9;  // farther out lookups need no more precision than texel numbers have
+  constexpr double kFar = 1e8;  // farther out lookups need no more precision than texel numbers have
   return {std::clamp(st.s * window.display_width - 0.5, -kFar, kFar),
           std::clamp((1.0 - st.t) * window.display_height - 0.5, -kFar, kFar)};
 }
@@ -97,13 +90,6 @@ Rgba elliptical(Texels& texels, TextureCoordinates st, const Covariance& pixel) 
   return elliptical_mean(texels, static_cast<int>(level), at.x, at.y, left);
 }
 
-Rgba blend(const Rgba& a, const Rgba& b, double share_of_b) {
-  const auto share = static_cast<float>(share_of_b);
-  Rgba sum;
-  for (std::size_t c = 0; c < 4; ++c) sum[c] = a[c] + (b[c] - a[c]) * share;
-  return sum;
-}
-
 /// Under a footprint that is straight enough to be an ellipse.
 Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint) {
   const TexelWindow& window = texels.levels().front().window;
@@ -116,14 +102,12 @@ Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint) {
     axes.minor = std::max(0.0, axes.minor - footprint.spared);
     pixel = covariance_from(axes);
   }
-  const double minor = std::sqrt(axes.minor);
-  if (minor >= kEllipseOnly || kTexelsPerLength * std::sqrt(axes.major) > kMostTexels) {
+  if (axes.minor > kLargestCloseSigma * kLargestCloseSigma ||
+      axes.major > kLongestCloseSigma * kLongestCloseSigma) {
     return elliptical(texels, st, pixel);
   }
   const TexelPosition at = position_on(window, st);
-  const Rgba close = close_mean(texels, at.x, at.y, axes, {smoothness(whole.xx), smoothness(whole.yy)});
-  if (minor <= kEllipseStarts) return close;
-  return blend(close, elliptical(texels, st, pixel), smooth_step(kEllipseStarts, kEllipseOnly, minor));
+  return close_mean(texels, at.x, at.y, pixel, {smoothness(whole.xx), smoothness(whole.yy)});
 }
 
 }  // namespace
