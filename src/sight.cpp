@@ -8,6 +8,7 @@
 
 #include "src/bodies.h"
 #include "src/constants.h"
+#include "src/sphere_reach.h"
 
 namespace lensplane {
 namespace {
@@ -166,9 +167,14 @@ void set_on_body(const Search& search, const StretchHit<Number>& at, int i, Line
 template <class Number>
 void see_sphere(const Search& search, const Sphere& sphere, LineBatch<Number>& rays, TraceBatch& batch) {
   const Deflectors* finite = search.finite();
-  alignas(64) BatchArray entry;
+  alignas(64) BatchArray entry, near;
+  if (search.stretch == Stretch::Straight) {
+    find_near(Stretches<Number>{rays, search.ends, search.bends, finite}, sphere, near);
+    if (!any_of(near)) return;
+  }
   VectorLane<Number> start = rays.start, direction = rays.direction;
   for (int i = 0; finite && i < kBatchSize; ++i) {
+    if (near[i] == 0.0) continue;
     const RaySegment<Number> stretch{start.get(i), direction.get(i), Number(search.ends.at[i]), search.bends};
     const RaySegment<Number> near = shifted_to_ball(*finite, stretch, sphere);
     start.set(i, near.start);

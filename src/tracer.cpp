@@ -9,10 +9,12 @@
 #include <limits>
 #include <utility>
 
+#include "src/bodies.h"
 #include "src/constants.h"
 #include "src/finite_shift.h"
 #include "src/march_batch.h"
 #include "src/single_ray.h"
+#include "src/sphere_reach.h"
 
 namespace lensplane {
 namespace {
@@ -52,15 +54,33 @@ void put_back(const PickedRays& from, TraceBatch& batch) {
   }
 }
 
+/// Which rays may meet a body on the chords after their stretches. Rings and cards count every stretch.
+template <class Number>
+void find_near_chords(const Sight& sight, const Stretches<Number>& before, const LineBatch<Number>& after,
+                      BatchArray& near) {
+  const bool spheres_only = std::none_of(
+      sight.surfaces.begin(), sight.surfaces.end(),
+      [](const Surface& surface) { return is_body(surface) && !std::holds_alternative<Sphere>(surface); });
+  std::fill_n(near, kBatchSize, spheres_only ? 0.0 : 1.0);
+  for (const Surface& surface : sight.surfaces) {
+    const auto* sphere = std::get_if<Sphere>(&surface);
+    if (sphere && spheres_only) add_near_chords(before, after, *sphere, near);
+  }
+}
+
 /// The way round the masses of a plane, as chords: from where the rays `before` it end, by end_nearest(), to
-/// where `after` starts.
+/// where `after` starts. Where `near` is 0 they have no length and no end.
 template <class Number>
 LineBatch<Number> chords_between(const Sight& sight, int bends, const Vec3& centre,
-                                 const LineBatch<Number>& before, const Ends& ends,
+                                 const LineBatch<Number>& before, const Ends& ends, const BatchArray& near,
                                  const LineBatch<Number>& after, Ends& chord_ends) {
   LineBatch<Number> chord = after;
   const Vector<Number> end(Number(centre.x), Number(centre.y), Number(centre.z));
   for (int i = 0; i < kBatchSize; ++i) {
+    if (near[i] == 0.0) {
+      chord_ends.at[i] = -std::numeric_limits<double>::infinity();
+      continue;
+    }
     const Vector<Number> start = before.start.get(i), direction = before.direction.get(i);
     const Number along = (end - start).dot(direction);  // as end_nearest(), with its derivatives
     const RaySegment<Number> in{start, direction, select(ends.at[i] == 0.0, Number(0.0), along), bends};
@@ -83,6 +103,7 @@ bool march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
                         BatchArray& irregular) {
   LineBatch<Number> rays, before;
   Ends ends, chord_ends;
+  alignas(64) BatchArray near;
   const bool bodies = sight.any_body();
   const PlanesWork work{reach, bodies || sight.effects.delay, sight.effects.delay};
   start_lines(sight.camera, sight.slope, batch.x, batch.y, work.path, rays);
@@ -96,8 +117,11 @@ bool march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
     if (bodies) before = rays;
     pass_plane(deflectors, k, work, rays);
     if (bodies) {
-      LineBatch<Number> chord = chords_between(sight, static_cast<int>(k), deflectors.planes[k].centre,
-                                               before, ends, rays, chord_ends);
+      const int bends = static_cast<int>(k);
+      find_near_chords(sight, Stretches<Number>{before, ends, bends, sight.finite}, rays, near);
+      if (!any_of(near)) continue;
+      LineBatch<Number> chord =
+          chords_between(sight, bends, deflectors.planes[k].centre, before, ends, near, rays, chord_ends);
       see_bodies(sight, chord_ends, static_cast<int>(k), Stretch::Chord, chord, batch);
       std::copy_n(chord.irregular, kBatchSize, rays.irregular);
     }
