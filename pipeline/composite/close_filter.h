@@ -26,7 +26,7 @@ struct Smoothness {
 inline constexpr double kLargestCloseSigma = 0.7;
 
 /// Standard deviation of the longer axis that it can hold, in texels.
-inline constexpr double kLongestCloseSigma = 150;
+inline constexpr double kLongestCloseSigma = 100;
 
 /// The mean of the finest level's surface around (x, y), counted in texels from the centre of the first.
 /// `pixel`: the pixel filter, within the two limits.

@@ -76,22 +76,23 @@ TexelPosition position_on(const TexelWindow& window, TextureCoordinates st) {
           std::clamp((1.0 - st.t) * window.display_height - 0.5, -kFar, kFar)};
 }
 
-Rgba elliptical(Texels& texels, TextureCoordinates st, const Covariance& pixel) {
+Rgba elliptical(Texels& texels, TextureCoordinates st, const Covariance& pixel, double most_texels) {
   const auto& levels = texels.levels();
   const Covariance total{pixel.xx + kTriangleVariance, pixel.xy, pixel.yy + kTriangleVariance};
   // The coarsest level on which the shorter axis is still at least a texel long.
   const int longest = std::ilogb(std::max(1.0, axes_of(total).minor)) / 2;
   auto level = std::min(static_cast<std::size_t>(longest), levels.size() - 1);
   Covariance left = left_on_level(levels, level, total);
-  while (texels_in(left) > kMostTexels && level + 1 < levels.size()) {
+  while (texels_in(left) > most_texels && level + 1 < levels.size()) {
     left = left_on_level(levels, ++level, total);
   }
   const TexelPosition at = position_on(levels[level].window, st);
   return elliptical_mean(texels, static_cast<int>(level), at.x, at.y, left);
 }
 
-/// Under a footprint that is straight enough to be an ellipse.
-Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint) {
+/// Under a footprint that is straight enough to be an ellipse. `part` of a pixel: so much of the most that a
+/// lookup may cost.
+Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint, double part) {
   const TexelWindow& window = texels.levels().front().window;
   const Covariance whole = covariance_in_texels(footprint, window.display_width, window.display_height);
   const double scale = std::clamp(footprint.scale, 0.0, 1e3);
@@ -102,9 +103,9 @@ Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint) {
     axes.minor = std::max(0.0, axes.minor - footprint.spared);
     pixel = covariance_from(axes);
   }
-  if (axes.minor > kLargestCloseSigma * kLargestCloseSigma ||
-      axes.major > kLongestCloseSigma * kLongestCloseSigma) {
-    return elliptical(texels, st, pixel);
+  const double share = std::clamp(part, 0.1, 1.0), longest = kLongestCloseSigma * share;
+  if (axes.minor > kLargestCloseSigma * kLargestCloseSigma || axes.major > longest * longest) {
+    return elliptical(texels, st, pixel, kMostTexels * share * share);
   }
   const TexelPosition at = position_on(window, st);
   return close_mean(texels, at.x, at.y, pixel, {smoothness(whole.xx), smoothness(whole.yy)});
@@ -116,13 +117,15 @@ Rgba filtered_texels(Texels& texels, TextureCoordinates st, const Footprint& foo
   const bool readable = std::isfinite(st.s) && std::isfinite(st.t) && std::isfinite(footprint.scale);
   if (!readable || !is_finite(footprint)) {
     constexpr double kWhole = 1e6;
-    return seen(texels, {0.5, 0.5}, {.ds_dx = kWhole, .dt_dy = kWhole});
+    return seen(texels, {0.5, 0.5}, {.ds_dx = kWhole, .dt_dy = kWhole}, 1);
   }
-  if (texels.wrap() != Wrap::Globe || !bends_around_pole(st, footprint)) return seen(texels, st, footprint);
+  const bool polar = texels.wrap() == Wrap::Globe && bends_around_pole(st, footprint);
+  if (!polar) return seen(texels, st, footprint, footprint.scale);
+  if (footprint.scale <= kPolarPartSigma) return seen(texels, st, footprint, 1);  // it is a part already
   WeightedSum sum;
   for_each_polar_part(st, footprint, [&](double weight, const PolarPart& part) {
     RowSum one;
-    one.add(1, seen(texels, part.st, part.footprint));
+    one.add(1, seen(texels, part.st, part.footprint, 1));
     sum.add(weight, one);
   });
   return sum.mean();

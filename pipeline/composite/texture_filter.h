@@ -15,9 +15,10 @@
 
 namespace lensplane {
 
-/// No lookup visits many more texels than this; ellipses that are larger are looked up in coarser levels than
-/// their shorter axis asks for. At 100:1 that is never.
-inline constexpr double kMostTexels = 8192;
+/// No lookup of a whole pixel visits many more texels than this, one of a part of a pixel that part of them;
+/// ellipses that are larger are looked up in coarser levels than their shorter axis asks for. At 100:1 that
+/// is never.
+inline constexpr double kMostTexels = 4096;
 
 /// The mean of the texels at (s, t) under `footprint`. Always finite when the texels are: what is no number
 /// in the footprint or in (s, t) sees the mean of the picture.
