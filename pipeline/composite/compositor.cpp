@@ -262,10 +262,4 @@ void scale(double by, Composite& composite) {
   for (double& hits : composite.hits) hits *= by;
 }
 
-std::vector<double> covered_pixels(const Tracer& tracer, const Sampling& sampling) {
-  const Picture white{1, 1, 0, 0, 1, 1, {{1, 1, 1, 1}}};
-  const SurfaceLook plain{std::make_shared<const Texture>(white, Wrap::Clamp), {}, {}, {}};
-  return composite(tracer, std::vector<SurfaceLook>(tracer.surfaces().size(), plain), sampling).hits;
-}
-
 }  // namespace lensplane

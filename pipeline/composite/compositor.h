@@ -43,7 +43,4 @@ void scale(double by, Composite& composite);
 /// Transparent black, overscan included.
 Picture blank_picture(const Camera& camera);
 
-/// Composite::hits without a picture.
-std::vector<double> covered_pixels(const Tracer& tracer, const Sampling& sampling);
-
 }  // namespace lensplane

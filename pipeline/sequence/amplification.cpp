@@ -7,29 +7,11 @@
 #include <charconv>
 #include <sstream>
 
-#include "pipeline/composite/compositor.h"
+#include "pipeline/composite/sphere_coverage.h"
 #include "pipeline/sequence/shutter.h"
 #include "pipeline/shot/shot_scene.h"
 
 namespace lensplane {
-
-namespace {
-
-/// Pixels that the spheres of the shot cover at a moment when no light is bent, in the order of `spheres`.
-std::vector<double> covered_without_lenses(const Shot& shot, const Moment& moment,
-                                           const std::vector<std::size_t>& spheres) {
-  Scene scene = scene_at(shot, moment.time);
-  scene.lenses.clear();
-  std::vector<Surface> surfaces;
-  for (const std::size_t k : spheres) surfaces.push_back(scene.surfaces[k]);
-  scene.surfaces = std::move(surfaces);
-  TraceSettings settings = trace_at(shot, moment.time);
-  settings.effects = {};
-  settings.effects.jacobian = true;
-  return covered_pixels(Tracer(scene, plan_trace(scene, settings)), moment.sampling);
-}
-
-}  // namespace
 
 std::vector<Amplification> amplifications_of(const Shot& shot, int frame,
                                              const std::vector<double>& covered) {
@@ -42,9 +24,11 @@ std::vector<Amplification> amplifications_of(const Shot& shot, int frame,
   std::vector<double> unlensed(spheres.size(), 0.0);
   const std::vector<Moment> moments = moments_of(shot, frame);
   for (const Moment& moment : moments) {
-    const auto pixels = covered_without_lenses(shot, moment, spheres);
+    const Scene scene = scene_at(shot, moment.time);
     for (std::size_t i = 0; i < spheres.size(); ++i) {
-      unlensed[i] += pixels[i] / static_cast<double>(moments.size());
+      const auto& sphere = std::get<Sphere>(scene.surfaces[spheres[i]]);
+      unlensed[i] +=
+          covered_without_lenses(scene.camera, sphere, moment.sampling) / static_cast<double>(moments.size());
     }
   }
   std::vector<Amplification> amplifications;

@@ -90,7 +90,6 @@ TEST(Compositor, CountsThePixelsOfTheFrameWithoutOverscan) {
   EXPECT_EQ(result.hits[0], 6 * 4);
   EXPECT_EQ(result.picture.width, 10);
   EXPECT_EQ(result.picture.x, -2);
-  EXPECT_EQ(covered_pixels(tracer_of(scene), {})[0], 6 * 4);
 }
 
 TEST(Compositor, LambertShadingIsTheCosineToTheLight) {

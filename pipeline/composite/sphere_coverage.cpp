@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/composite/sphere_coverage.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "src/projection.h"
+#include "src/surfaces.h"
+
+namespace lensplane {
+namespace {
+
+/// The cone of directions in which the camera sees the sphere.
+class Cone {
+ public:
+  Cone(const Camera& camera, const Sphere& sphere) : camera_(camera) {
+    const Vec3 centre = std::get<Sphere>(camera_from_world(camera, sphere)).centre;
+    const double distance = centre.length();
+    inside_ = distance <= sphere.radius;
+    if (inside_) return;
+    axis_ = centre / distance;
+    // Half the chord between directions at the cone's edge and its axis: exact for the smallest spheres.
+    half_chord_ = std::sin(0.5 * std::asin(sphere.radius / distance));
+  }
+
+  bool sees(FilmPosition film) const {
+    if (!lensplane::sees(camera_, film)) return false;
+    if (inside_) return true;
+    return (direction_from_film<double>(camera_, film) - axis_).length() <= 2.0 * half_chord_;
+  }
+
+ private:
+  const Camera& camera_;
+  bool inside_ = false;
+  Vec3 axis_{0};
+  double half_chord_ = 0;
+};
+
+/// One row of pixels, and one more on either side of it, with a pixel before and after.
+using RowOfHits = std::vector<std::uint8_t>;
+
+RowOfHits hits_in_row(const Cone& cone, int width, int row) {
+  RowOfHits hits;
+  for (int column = -1; column <= width; ++column) hits.push_back(cone.sees({column + 0.5, row + 0.5}));
+  return hits;
+}
+
+double share_of_rays(const Cone& cone, int column, int row, const Sampling& sampling) {
+  int hits = 0;
+  for (int n = 0; n < sampling.max; ++n) {
+    const SampleOffset offset = sample_offsets()[static_cast<std::size_t>(n)];
+    hits += cone.sees({column + 0.5 + offset.x, row + 0.5 + offset.y});
+  }
+  return static_cast<double>(hits) / sampling.max;
+}
+
+double covered_in_row(const Cone& cone, int row, const std::array<const RowOfHits*, 3>& rows,
+                      const Sampling& sampling) {
+  double covered = 0;
+  const RowOfHits& here = *rows[1];
+  for (std::size_t k = 1; k + 1 < here.size(); ++k) {
+    bool edge = false;
+    for (const RowOfHits* of : rows) {
+      for (std::size_t n = k - 1; n <= k + 1; ++n) edge |= (*of)[n] != here[k];
+    }
+    const auto column = static_cast<int>(k) - 1;
+    covered += edge && sampling.max > 1 ? share_of_rays(cone, column, row, sampling) : here[k];
+  }
+  return covered;
+}
+
+}  // namespace
+
+double covered_without_lenses(const Camera& camera, const Sphere& sphere, const Sampling& sampling) {
+  const Cone cone(camera, sphere);
+  std::vector<RowOfHits> hits(static_cast<std::size_t>(camera.height) + 2);
+  tbb::parallel_for(std::size_t{0}, hits.size(), [&](std::size_t k) {
+    hits[k] = hits_in_row(cone, camera.width, static_cast<int>(k) - 1);
+  });
+  std::vector<double> covered(static_cast<std::size_t>(camera.height));
+  tbb::parallel_for(std::size_t{0}, covered.size(), [&](std::size_t k) {
+    covered[k] = covered_in_row(cone, static_cast<int>(k), {&hits[k], &hits[k + 1], &hits[k + 2]}, sampling);
+  });
+  return std::accumulate(covered.begin(), covered.end(), 0.0);
+}
+
+}  // namespace lensplane
