@@ -63,10 +63,20 @@ struct Conditional {
   SurfaceKernel kernel;
 };
 
-/// `along`, `across`: variances on the longer axis and on the other.
-Conditional conditional(double along, double across, double between, double smoothness) {
-  const double slant = between / (along + kTriangleVariance);
-  return {slant, SurfaceKernel(std::max(0.0, across - slant * between), smoothness)};
+/// A variance and how cubic the surface is, along one axis.
+struct AxisFilter {
+  double variance, smoothness;
+
+  /// The variance of the surface's own weights.
+  double of_surface() const {
+    return kTriangleVariance + smoothness * (kCubicSplineVariance - kTriangleVariance);
+  }
+};
+
+/// `between`: the covariance of the two axes.
+Conditional conditional(const AxisFilter& along, const AxisFilter& across, double between) {
+  const double slant = between / (along.variance + along.of_surface());
+  return {slant, SurfaceKernel(std::max(0.0, across.variance - slant * between), across.smoothness)};
 }
 
 /// The sum of texels side by side, number n by weight(n).
@@ -138,12 +148,13 @@ LENSPLANE_KERNEL Rgba mean_along_columns(Texels& texels, double x, double y, con
 }  // namespace
 
 Rgba close_mean(Texels& texels, double x, double y, const Covariance& pixel, Smoothness smoothness) {
+  const AxisFilter columns{pixel.xx, smoothness.x}, rows{pixel.yy, smoothness.y};
   if (pixel.xx >= pixel.yy) {
-    return mean_along_rows(texels, x, y, Marginal(x, pixel.xx, smoothness.x),
-                           conditional(pixel.xx, pixel.yy, pixel.xy, smoothness.y));
+    return mean_along_rows(texels, x, y, Marginal(x, columns.variance, columns.smoothness),
+                           conditional(columns, rows, pixel.xy));
   }
-  return mean_along_columns(texels, x, y, Marginal(y, pixel.yy, smoothness.y),
-                            conditional(pixel.yy, pixel.xx, pixel.xy, smoothness.x));
+  return mean_along_columns(texels, x, y, Marginal(y, rows.variance, rows.smoothness),
+                            conditional(rows, columns, pixel.xy));
 }
 
 }  // namespace lensplane

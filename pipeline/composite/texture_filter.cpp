@@ -17,8 +17,8 @@ namespace {
 constexpr double kTriangleVariance = 1.0 / 6;
 
 // Texels are this many pixels large where the surface starts to be cubic, and where it is.
-constexpr double kCubicStarts = 2;
-constexpr double kCubicOnly = 4;
+constexpr double kCubicStarts = 4;
+constexpr double kCubicOnly = 8;
 
 double smooth_step(double from, double to, double x) {
   const double share = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -103,7 +103,7 @@ Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint, dou
     axes.minor = std::max(0.0, axes.minor - footprint.spared);
     pixel = covariance_from(axes);
   }
-  const double share = std::clamp(part, 0.1, 1.0), longest = kLongestCloseSigma * share;
+  const double share = std::clamp(2.0 * part, 0.1, 1.0), longest = kLongestCloseSigma * share;
   if (axes.minor > kLargestCloseSigma * kLargestCloseSigma || axes.major > longest * longest) {
     return elliptical(texels, st, pixel, kMostTexels * share * share);
   }
