@@ -53,7 +53,13 @@ Json json_from_plan(const Shot& shot, const PlannedFrame& planned) {
                {"near_masses", plan.near_masses},
                {"summary", describe(plan)}};
   if (plan.method == Method::Geodesic) json["geodesic_tolerance"] = plan.geodesic_tolerance;
-  for (const char* list : {"lenses", "effects", "recipes"}) json[list] = Json::array();
+  for (const char* list : {"lenses", "effects", "recipes", "plates"}) json[list] = Json::array();
+  for (const PlateMargin& margin : planned.margins) {
+    json["plates"].push_back({{"layer", margin.layer},
+                              {"outside", margin.outside},
+                              {"margin_px", margin.most},
+                              {"margin_for_all_px", margin.all}});
+  }
   for (const LensPlan& lens : lenses_of(planned))
     json["lenses"].push_back(json_from_lens(shot, planned, lens));
   for (const EffectPlan& effect : plan.choices) {

@@ -110,6 +110,16 @@ std::string recipe_table(const PlannedFrame& planned) {
   return "\n" + text_from_rows(rows);
 }
 
+std::string plate_table(const PlannedFrame& planned) {
+  if (planned.margins.empty()) return "";
+  Rows rows = {{"plate", "pixels that look outside", "margin for 99.9 %", "margin for all"}};
+  for (const PlateMargin& m : planned.margins) {
+    rows.push_back({m.layer, in_percent(m.outside), fmt::format("{} px", m.most),
+                    m.all < kFarthestMargin ? fmt::format("{} px", m.all) : "no limit"});
+  }
+  return "\n" + text_from_rows(rows);
+}
+
 }  // namespace
 
 std::string laws_of(const Deflectors& recipe) {
@@ -133,7 +143,8 @@ std::string text_from_plan(const Shot& shot, const PlannedFrame& planned) {
                         pixels(plan.bound_px));
   }
   if (plan.method == Method::Geodesic) head += fmt::format(", to {:.3g} rad", plan.geodesic_tolerance);
-  return head + "\n" + lens_table(shot, planned) + effect_table(plan) + recipe_table(planned);
+  return head + "\n" + lens_table(shot, planned) + effect_table(plan) + recipe_table(planned) +
+         plate_table(planned);
 }
 
 }  // namespace lensplane

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "pipeline/sequence/plate_margins.h"
 #include "src/plan.h"
 
 namespace lensplane {
@@ -15,6 +16,7 @@ struct PlannedFrame {
   Scene scene;
   TraceSettings settings;
   Plan plan;
+  std::vector<PlateMargin> margins = {};  // of all plates, by all pixels
 };
 
 /// What becomes of every lens, by any method. The paper's methods bend by all lenses, with the weak law, and

@@ -12,6 +12,7 @@
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/failure.h"
 #include "pipeline/sequence/overwriting.h"
+#include "pipeline/sequence/plate_margins.h"
 #include "pipeline/sequence/progress.h"
 #include "pipeline/sequence/render_sequence.h"
 #include "pipeline/sequence/shot_colours.h"
@@ -45,6 +46,11 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
                          .picture = options.command != Command::Map,
                          .redo = options.redo,
                          .from_maps = options.command == Command::Comp};
+  if (!options.quiet) {
+    for (const PlateMargin& margin : worst_margins(shot, frames)) {
+      std::fputs((line_of(margin) + "\n").c_str(), stdout);
+    }
+  }
   double seconds = 0;
   std::vector<FrameReport> reports;
   {

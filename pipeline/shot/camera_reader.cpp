@@ -15,7 +15,6 @@ namespace {
 constexpr int kMaxResolution = 65536;
 constexpr int kMaxOverscan = 16384;
 constexpr int kMaxShutterSamples = 256;
-constexpr int kMaxPixels = 1 << 28;  // 16384 x 16384
 
 constexpr std::array<std::string_view, 3> kProjectionNames = {"perspective", "latlong", "fisheye"};
 
@@ -183,9 +182,9 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not
   if (const auto overscan = camera.find("overscan")) track.overscan = read_overscan(*overscan);
   const double margin = 2.0 * track.overscan.value_or(0);
   const double pixels = (track.width + margin) * (track.height + margin);
-  if (pixels > kMaxPixels) {
+  if (pixels > kMaxFilmPixels) {
     camera.find("resolution")
-        ->refuse(fmt::format("more than {} million pixels with overscan", kMaxPixels >> 20));
+        ->refuse(fmt::format("more than {} million pixels with overscan", kMaxFilmPixels >> 20));
   }
   if (const auto shutter = camera.find("shutter")) track.shutter = read_shutter(*shutter);
   if (const auto glow = camera.find("glow")) track.glow = read_glow(*glow);

@@ -27,6 +27,9 @@ struct LocatedText {
 /// The narrowest field of view, in radians: narrower ones cannot be told from nothing in double precision.
 inline constexpr double kNarrowestFov = 1e-15;
 
+/// The most pixels of a frame, overscan included: 16384 x 16384.
+inline constexpr int kMaxFilmPixels = 1 << 28;
+
 /// A perspective camera's field of view as the focal length of a lens.
 struct FocalLength {
   Keyed<double> focal_length;  // metres
