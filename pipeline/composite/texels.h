@@ -61,10 +61,16 @@ class Texels {
   }
 
   const Rgba* gathered(int level, int column, int row, int count) {
-    gathered_.resize(static_cast<std::size_t>(count));
-    for (int i = 0; i < count;) {
+    gathered_.assign(static_cast<std::size_t>(count), Rgba{0, 0, 0, 0});
+    int from = 0, until = count;
+    if (wrap_ == Wrap::Black) {  // there is nothing but what is stored
+      const TexelWindow& window = levels_[static_cast<std::size_t>(level)].window;
+      from = std::max(0, window.x - column);
+      until = window.stores(window.x, row) ? std::min(count, window.x + window.width - column) : 0;
+    }
+    for (int i = from; i < until;) {
       const TexelRun next = run(level, column + i, row);
-      const int taken = std::min(next.count, count - i);
+      const int taken = std::min(next.count, until - i);
       std::copy_n(next.texels, taken, gathered_.begin() + i);
       i += taken;
     }

@@ -76,6 +76,14 @@ TexelPosition position_on(const TexelWindow& window, TextureCoordinates st) {
           std::clamp((1.0 - st.t) * window.display_height - 0.5, -kFar, kFar)};
 }
 
+/// Does an ellipse reach none of the stored texels, whatever filter is taken for it?
+bool is_beyond(const TexelWindow& window, const TexelPosition& at, const Covariance& pixel) {
+  constexpr double kReach = 8, kMore = 8;
+  const double x = kReach * std::sqrt(pixel.xx) + kMore, y = kReach * std::sqrt(pixel.yy) + kMore;
+  return at.x < window.x - x || at.x > window.x + window.width + x || at.y < window.y - y ||
+         at.y > window.y + window.height + y;
+}
+
 Rgba elliptical(Texels& texels, TextureCoordinates st, const Covariance& pixel, double most_texels) {
   const auto& levels = texels.levels();
   const Covariance total{pixel.xx + kTriangleVariance, pixel.xy, pixel.yy + kTriangleVariance};
@@ -103,11 +111,12 @@ Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint, dou
     axes.minor = std::max(0.0, axes.minor - footprint.spared);
     pixel = covariance_from(axes);
   }
+  const TexelPosition at = position_on(window, st);
+  if (texels.wrap() == Wrap::Black && is_beyond(window, at, pixel)) return {0, 0, 0, 0};
   const double share = std::clamp(2.0 * part, 0.1, 1.0), longest = kLongestCloseSigma * share;
   if (axes.minor > kLargestCloseSigma * kLargestCloseSigma || axes.major > longest * longest) {
     return elliptical(texels, st, pixel, kMostTexels * share * share);
   }
-  const TexelPosition at = position_on(window, st);
   return close_mean(texels, at.x, at.y, pixel, {smoothness(whole.xx), smoothness(whole.yy)});
 }
 
