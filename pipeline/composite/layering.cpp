@@ -43,7 +43,9 @@ double light_share(const ShadowCaster& caster, const Vec3& light, const Vec3& po
   const double towards = from_centre.dot(light);
   if (towards >= 0.0) return 1.0;  // between the caster and the light
   const double from_axis = (from_centre - light * towards).length();
-  return smooth_step(-width, width, from_axis - caster.radius);
+  const double outside = from_axis - caster.radius;
+  if (!(width > 0.0)) return outside < 0.0 ? 0.0 : 1.0;
+  return smooth_step(-width, width, outside);
 }
 
 }  // namespace

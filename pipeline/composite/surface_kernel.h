@@ -22,7 +22,8 @@ class TriangleTable {
   static constexpr int kPerTexel = 64;
   /// Standard deviations beyond the triangle that still count; a part in ten thousand lies beyond.
   static constexpr double kReach = 2.6;
-  static constexpr int kLength = static_cast<int>((1 + kReach * kLargestSigma) * kPerTexel) + 3;
+  /// The last entries of every row are 0.
+  static constexpr int kLength = static_cast<int>((1 + kReach * kLargestSigma) * kPerTexel) + 4;
 
   /// The one table; made at its first use.
   static const TriangleTable& get();

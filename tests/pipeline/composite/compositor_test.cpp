@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 
 #include "pipeline/composite/locator.h"
+#include "pipeline/composite/star_layer.h"
 #include "tests/src/scenes.h"
 
 namespace lensplane {
@@ -119,6 +120,52 @@ TEST(Compositor, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one.picture.pixels, two.picture.pixels);
   EXPECT_EQ(one.picture.pixels, seven.picture.pixels);
   EXPECT_EQ(one.hits, seven.hits);
+}
+
+TEST(Compositor, StarsShineThroughWhatIsHalfTransparent) {
+  // A half transparent card over a sphere over stars.
+  Scene scene = empty_scene(41, 41, 10);
+  scene.surfaces = {Sphere{{0, 0, -200}, 8, {}}, Card{100}};
+  const std::vector<SurfaceLook> looks = {{flat({0, 1, 0, 1})}, {flat({0.2F, 0.1F, 0, 0.5F})}};
+  Composite result = take_picture(scene, looks);
+  const auto star_at = [&](double x, double y) {
+    return Star{direction_from_pixel(scene.camera, {x, y}), 0, 0.6};
+  };
+  const StarField field = star_field({star_at(20.5, 20.5), star_at(35.5, 5.5)});
+  add_stars(tracer_of(scene), looks, field, result.picture);
+  // Over the sphere: (0.2, 0.1, 0) + 0.5 (0, 1, 0), and no star.
+  expect_colour(result.picture.at(20, 20), {0.2F, 0.6F, 0, 1});
+  // Beside it the card and half of the star's light: of a Gaussian of 0.6 pixels the middle pixel has
+  // erf(0.5/(0.6 sqrt(2)))^2.
+  const double share = 0.5 * std::pow(std::erf(0.5 / 0.6 / std::sqrt(2.0)), 2);
+  const Rgba& lit = result.picture.at(35, 5);
+  const std::array<double, 3> card = {0.2, 0.1, 0};
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(lit[c], card[c] + share * field.light[1][c], 2e-3);
+  EXPECT_EQ(lit[3], 0.5F);
+  expect_colour(result.picture.at(35, 35), {0.2F, 0.1F, 0, 0.5F});
+}
+
+TEST(Compositor, MeansOfSeveralAddUpAndScale) {
+  const auto of = [](const Rgba& colour, double hits, std::int64_t rays, std::int64_t refined) {
+    return Composite{Picture{1, 2, 0, 0, 1, 2, {colour, {1, 2, 3, 1}}}, {hits, 1}, rays, refined};
+  };
+  Composite sum = of({0.2F, 0.4F, 0.6F, 1}, 3, 100, 7);
+  add(of({0.6F, 0, 0.2F, 0.5F}, 5, 50, 2), sum);
+  expect_colour(sum.picture.pixels[0], {0.8F, 0.4F, 0.8F, 1.5F});
+  EXPECT_EQ(sum.hits, (std::vector<double>{8, 2}));
+  scale(0.5, sum);
+  expect_colour(sum.picture.pixels[0], {0.4F, 0.2F, 0.4F, 0.75F});
+  expect_colour(sum.picture.pixels[1], {1, 2, 3, 1});
+  EXPECT_EQ(sum.hits, (std::vector<double>{4, 1}));
+  EXPECT_EQ(sum.rays, 150);  // what was spent stays spent
+  EXPECT_EQ(sum.refined, 9);
+}
+
+TEST(Compositor, BrightnessIsSeenAroundMiddleGrey) {
+  EXPECT_EQ(seen_brightness(0), 0);
+  EXPECT_FLOAT_EQ(seen_brightness(kMiddleGrey), 0.5F);
+  EXPECT_FLOAT_EQ(seen_brightness(9 * kMiddleGrey), 0.9F);
+  EXPECT_FLOAT_EQ(seen_brightness(-kMiddleGrey), -0.5F);
 }
 
 TEST(Locator, ShowsTheLensesWhereTheyAreAndBendsNothing) {
