@@ -79,12 +79,10 @@ Conditional conditional(const AxisFilter& along, const AxisFilter& across, doubl
   return {slant, SurfaceKernel(std::max(0.0, across.variance - slant * between), across.smoothness)};
 }
 
-/// The sum of texels side by side, number n by weight(n).
+/// Adds texels side by side, number n by weight(n). No ellipse has so many that single precision lost them.
 template <class Weight>
-[[gnu::always_inline]] inline RowSum sum_of(const Rgba* texels, int count, Weight weight) {
-  RowSum sum;
+[[gnu::always_inline]] inline void add_texels(const Rgba* texels, int count, Weight weight, RowSum& sum) {
   for (int n = 0; n < count; ++n) sum.add(weight(n), texels[n]);
-  return sum;
 }
 
 /// The ellipse is longer along rows: columns are weighed, and within each its rows.
@@ -96,7 +94,7 @@ LENSPLANE_KERNEL Rgba mean_along_rows(Texels& texels, double x, double y, const 
   const double sway = std::abs(within.slant) * std::max(x - all.first, all.last - x);
   const Span rows = span_around(y, reach + sway);
   const auto slant = static_cast<float>(within.slant);
-  WeightedSum total;
+  RowSum sum;
   for (int row = rows.first; row <= rows.last; ++row) {
     Span in_row = all;
     if (sway > 1) {
@@ -113,13 +111,13 @@ LENSPLANE_KERNEL Rgba mean_along_rows(Texels& texels, double x, double y, const 
       const auto weight = [=](int n) {
         return column[n] * kernel.triangle(away - slant * static_cast<float>(n));
       };
-      total.add(1, sum_of(texel, count, weight));
+      add_texels(texel, count, weight, sum);
     } else {
       const auto weight = [=](int n) { return column[n] * kernel(away - slant * static_cast<float>(n)); };
-      total.add(1, sum_of(texel, count, weight));
+      add_texels(texel, count, weight, sum);
     }
   }
-  return total.mean();
+  return sum.mean();
 }
 
 /// The ellipse is longer along columns: rows are weighed, and within each its columns.
@@ -127,22 +125,23 @@ LENSPLANE_KERNEL Rgba mean_along_columns(Texels& texels, double x, double y, con
                                          const Conditional& within) {
   const SurfaceKernel& kernel = within.kernel;
   const double reach = kernel.reach();
-  WeightedSum total;
+  RowSum sum;
   for (int row = rows.span().first; row <= rows.span().last; ++row) {
     const double middle = x + within.slant * (row - y);
     const Span columns = span_around(middle, reach);
     const int count = columns.last - columns.first + 1;
     const Rgba* texel = texels.row(0, columns.first, row, count);
     const auto away = static_cast<float>(columns.first - middle);
-    const auto by = static_cast<double>(*rows.from(row));
+    const float by = *rows.from(row);
     if (kernel.is_triangle()) {
-      total.add(by,
-                sum_of(texel, count, [=](int n) { return kernel.triangle(away + static_cast<float>(n)); }));
+      add_texels(
+          texel, count, [=](int n) { return by * kernel.triangle(away + static_cast<float>(n)); }, sum);
     } else {
-      total.add(by, sum_of(texel, count, [=](int n) { return kernel(away + static_cast<float>(n)); }));
+      add_texels(
+          texel, count, [=](int n) { return by * kernel(away + static_cast<float>(n)); }, sum);
     }
   }
-  return total.mean();
+  return sum.mean();
 }
 
 }  // namespace

@@ -24,6 +24,14 @@ struct RowSum {
     sum += by * colour;
     weight += by;
   }
+  /// As WeightedSum::mean.
+  Rgba mean() const {
+    Rgba mean{0, 0, 0, 0};
+    if (weight > 0) {
+      for (std::size_t c = 0; c < 4; ++c) mean[c] = sum[c] / weight;
+    }
+    return mean;
+  }
 };
 
 struct WeightedSum {
