@@ -48,7 +48,8 @@ TEST(SphereCoverage, CountsAsTheCompositorDoes) {
     const Picture white{1, 1, 0, 0, 1, 1, {{1, 1, 1, 1}}};
     const SurfaceLook look{std::make_shared<const Texture>(white, Wrap::Clamp), {}, {}, {}};
     const Composite seen = composite(Tracer(scene, plan_trace(scene, settings)), {look}, {});
-    EXPECT_NEAR(covered_without_lenses(scene.camera, sphere, {}), seen.hits[0], kAdaptiveError * seen.hits[0]);
+    EXPECT_NEAR(covered_without_lenses(scene.camera, sphere, {}), seen.hits[0],
+                kAdaptiveError * seen.hits[0]);
     EXPECT_GT(seen.hits[0], 90);
   }
 }
