@@ -12,26 +12,12 @@
 #include "pipeline/composite/compositor.h"
 #include "src/constants.h"
 #include "src/lens_map.h"
+#include "tests/benchmarks/benchmark_scenes.h"
 
 namespace lensplane {
 namespace {
 
 constexpr int kWidth = 3840, kHeight = 2160;
-
-/// The paper's Fig. 6 before a plate: three sources at three depths, not in a line.
-Scene three_sources() {
-  Scene scene;
-  scene.camera.width = kWidth;
-  scene.camera.height = kHeight;
-  scene.camera.fov_rad = 3.0 * kPi / 180.0;
-  const double m = geometric_mass_from_kg(1.989e31);
-  const double side = 5.95e6;
-  scene.lenses = {{m, {-side, -0.5 * side, -0.4 * 1.09e9}},
-                  {m, {side, -0.4 * side, -0.5 * 1.09e9}},
-                  {m, {0.1 * side, 0.9 * side, -0.6 * 1.09e9}}};
-  scene.surfaces = {Plate{}};
-  return scene;
-}
 
 const Picture& plate() {
   static const Picture made = [] {
@@ -56,7 +42,7 @@ Tracer tracer_of(const Scene& scene) {
 }
 
 void trace_and_filter(benchmark::State& state) {
-  const Scene scene = three_sources();
+  const Scene scene = fig6(kWidth, kHeight);
   const Tracer tracer = tracer_of(scene);
   const SurfaceLook look{std::make_shared<const Texture>(plate(), Wrap::Black), {}, {}, {}};
   const Sampling sampling{static_cast<int>(state.range(0))};
@@ -68,7 +54,7 @@ void trace_and_filter(benchmark::State& state) {
 }
 
 void st_warp(benchmark::State& state) {
-  const Scene scene = three_sources();
+  const Scene scene = fig6(kWidth, kHeight);
   const LensMap map = trace_maps(Tracer(scene, plan_trace(scene, TraceSettings{}))).front();
   OIIO::ImageBuf source(OIIO::ImageSpec(kWidth, kHeight, 4, OIIO::TypeDesc::FLOAT));
   source.set_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, plate().pixels.data());

@@ -11,25 +11,16 @@
 #include "pipeline/composite/star_drawing.h"
 #include "src/constants.h"
 #include "src/lens_map.h"
+#include "tests/benchmarks/benchmark_scenes.h"
 
 namespace lensplane {
 namespace {
 
 constexpr int kStars = 41411;
 
-/// The paper's Fig. 6 in HD: three sources at three depths, not in a line.
+/// The paper's Fig. 6 in HD.
 Scene three_sources(const Surface& surface = Plate{}) {
-  Scene scene;
-  scene.camera.width = 1920;
-  scene.camera.height = 1080;
-  scene.camera.fov_rad = 3.0 * kPi / 180.0;
-  const double m = geometric_mass_from_kg(1.989e31);
-  const double side = 5.95e6;
-  scene.lenses = {{m, {-side, -0.5 * side, -0.4 * 1.09e9}},
-                  {m, {side, -0.4 * side, -0.5 * 1.09e9}},
-                  {m, {0.1 * side, 0.9 * side, -0.6 * 1.09e9}}};
-  scene.surfaces = {surface};
-  return scene;
+  return fig6(1920, 1080, surface);
 }
 
 Tracer tracer_of(const Scene& scene, Effects effects = {}) {

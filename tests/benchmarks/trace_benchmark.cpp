@@ -20,25 +20,16 @@
 #include "src/planes_march.h"
 #include "src/rotation.h"
 #include "src/tracer.h"
+#include "tests/benchmarks/benchmark_scenes.h"
 
 namespace lensplane {
 namespace {
 
 constexpr int kRowLength = 64;
 
-/// The paper's Fig. 6: three sources at three depths, not in a line.
+/// The paper's Fig. 6.
 Scene three_sources(const Surface& surface = Plate{}) {
-  Scene scene;
-  scene.camera.width = 3840;
-  scene.camera.height = 2160;
-  scene.camera.fov_rad = 3.0 * kPi / 180.0;
-  const double m = geometric_mass_from_kg(1.989e31);
-  const double side = 5.95e6;
-  scene.lenses = {{m, {-side, -0.5 * side, -0.4 * 1.09e9}},
-                  {m, {side, -0.4 * side, -0.5 * 1.09e9}},
-                  {m, {0.1 * side, 0.9 * side, -0.6 * 1.09e9}}};
-  scene.surfaces = {surface};
-  return scene;
+  return fig6(3840, 2160, surface);
 }
 
 /// `count` sources on `planes` planes, all over the frame, together as heavy as the three.
