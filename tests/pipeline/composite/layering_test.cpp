@@ -111,12 +111,12 @@ TEST(Layering, PointsOnTheEdgeOfAShadowWithoutWidthAreLitOrDark) {
   const SurfaceLook look{flat({1, 1, 1, 1}), Vec3(0, 0, 1), {}, ShadowCaster{{0, 0, 0}, 10}};
   // Points on the cylinder's edge, but for rounding.
   for (const double t : {0.0, 0.25, 0.75, 0.9}) {
-    const float light = shade(Ring{{}, {}, 10, 30}, look, {0, t}, {})[0];
+    const float light = shade(Ring{Vec3(0), {}, 10, 30}, look, {0, t}, {})[0];
     EXPECT_TRUE(light >= 0 && light <= 1) << t;
   }
   // A caster without size, on whose axis the point lies: exactly on the edge.
   const SurfaceLook point{flat({1, 1, 1, 1}), Vec3(0, 0, 1), {}, ShadowCaster{{0, 0, 20}, 0}};
-  EXPECT_EQ(shade(Ring{{}, {}, 10, 30}, point, {0, 0.5}, {})[0], 1);
+  EXPECT_EQ(shade(Ring{Vec3(0), {}, 10, 30}, point, {0, 0.5}, {})[0], 1);
 }
 
 TEST(Layering, ShadowsAreWhereRaysTowardsTheLightMeetTheCaster) {
