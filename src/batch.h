@@ -10,6 +10,7 @@
 #pragma once
 
 #include "src/dual.h"
+#include "src/inlining.h"
 
 namespace lensplane {
 
@@ -29,16 +30,16 @@ template <>
 struct Lane<double> {
   alignas(64) BatchArray v;
 
-  [[gnu::always_inline]] double get(int i) const { return v[i]; }
-  [[gnu::always_inline]] void set(int i, double a) { v[i] = a; }
+  LENSPLANE_ALWAYS_INLINE double get(int i) const { return v[i]; }
+  LENSPLANE_ALWAYS_INLINE void set(int i, double a) { v[i] = a; }
 };
 
 template <>
 struct Lane<Dual> {
   alignas(64) BatchArray v, dx, dy;
 
-  [[gnu::always_inline]] Dual get(int i) const { return {v[i], dx[i], dy[i]}; }
-  [[gnu::always_inline]] void set(int i, const Dual& a) {
+  LENSPLANE_ALWAYS_INLINE Dual get(int i) const { return {v[i], dx[i], dy[i]}; }
+  LENSPLANE_ALWAYS_INLINE void set(int i, const Dual& a) {
     v[i] = a.v;
     dx[i] = a.dx;
     dy[i] = a.dy;
@@ -50,8 +51,8 @@ template <class Number>
 struct VectorLane {
   Lane<Number> x, y, z;
 
-  [[gnu::always_inline]] Vector<Number> get(int i) const { return {x.get(i), y.get(i), z.get(i)}; }
-  [[gnu::always_inline]] void set(int i, const Vector<Number>& a) {
+  LENSPLANE_ALWAYS_INLINE Vector<Number> get(int i) const { return {x.get(i), y.get(i), z.get(i)}; }
+  LENSPLANE_ALWAYS_INLINE void set(int i, const Vector<Number>& a) {
     x.set(i, a.x);
     y.set(i, a.y);
     z.set(i, a.z);

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "src/inlining.h"
 #include "src/near_turn.h"
 #include "src/planes_batch.h"
 #include "src/rotation.h"
@@ -17,27 +18,22 @@
 namespace lensplane::bend {
 
 template <class Number>
-[[gnu::always_inline]] inline Vector<Number> constant(const Vec3& v) {
-  return {Number(v.x), Number(v.y), Number(v.z)};
-}
-
-template <class Number>
-[[gnu::always_inline]] inline Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+LENSPLANE_ALWAYS_INLINE inline Number dot(const Vector<Number>& a, const Vector<Number>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 template <class Number>
-[[gnu::always_inline]] inline Vector<Number> scaled(const Vector<Number>& a, const Number& s) {
+LENSPLANE_ALWAYS_INLINE inline Vector<Number> scaled(const Vector<Number>& a, const Number& s) {
   return {a.x * s, a.y * s, a.z * s};
 }
 
 template <class Number>
-[[gnu::always_inline]] inline Vector<Number> sum(const Vector<Number>& a, const Vector<Number>& b) {
+LENSPLANE_ALWAYS_INLINE inline Vector<Number> sum(const Vector<Number>& a, const Vector<Number>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
 template <class Number>
-[[gnu::always_inline]] inline Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) {
+LENSPLANE_ALWAYS_INLINE inline Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
@@ -52,7 +48,7 @@ struct Strength {
 /// What a law needs of b^2: the slow operations, root and division, which a loop of their own has done by the
 /// time that the law needs them.
 template <Law law, Reach reach, class Number>
-[[gnu::always_inline]] inline Number measured(const Number& b2) {
+LENSPLANE_ALWAYS_INLINE inline Number measured(const Number& b2) {
   if constexpr (law == Law::Weak)
     return reciprocal(b2);
   else if constexpr (law == Law::Exact && reach == Reach::Near)
@@ -63,7 +59,7 @@ template <Law law, Reach reach, class Number>
 
 /// Strength by the law at its full length.
 template <Law law, Reach reach, class Number>
-[[gnu::always_inline]] inline Strength<Number> full_strength(double m, const Number& measure) {
+LENSPLANE_ALWAYS_INLINE inline Strength<Number> full_strength(double m, const Number& measure) {
   if constexpr (law == Law::Weak) {  // 1/b^2
     const Number per_b = (4.0 * m) * measure;
     return {per_b, Number(4.0 * m), value_of(per_b)};
@@ -90,8 +86,8 @@ template <Law law, Reach reach, class Number>
 /// The strength that is left at the finite distance of the camera; bend_by() of planes_march.h without
 /// branches. `along` is the distance from the camera to the closest approach.
 template <Law law, Reach reach, class Number>
-[[gnu::always_inline]] inline Strength<Number> finite_strength(const Deflector& deflector, const Number& b2,
-                                                               const Number& along) {
+LENSPLANE_ALWAYS_INLINE inline Strength<Number> finite_strength(const Deflector& deflector, const Number& b2,
+                                                                const Number& along) {
   const bool ahead = value_of(along) >= 0.0;
   const double n = deflector.index;
   const Number r2 = along * along + b2;
@@ -121,7 +117,7 @@ inline constexpr double kFarthest = 1e139;  // products of squares of larger len
 inline constexpr double kFarImpact = kCriticalRatio / kFarRatio;
 
 template <Reach reach, class Number>
-[[gnu::always_inline]] inline Turn<Number> turn_within(const Number& q) {
+LENSPLANE_ALWAYS_INLINE inline Turn<Number> turn_within(const Number& q) {
   if constexpr (reach == Reach::Far)
     return short_turn(q);
   else
@@ -129,7 +125,7 @@ template <Reach reach, class Number>
 }
 
 template <Reach reach>
-[[gnu::always_inline]] inline bool turn_fits(double q) {
+LENSPLANE_ALWAYS_INLINE inline bool turn_fits(double q) {
   return reach == Reach::Far ? q <= kShortTurn * kShortTurn : q <= kLongestTurn * kLongestTurn;
 }
 
@@ -153,11 +149,11 @@ struct Limits {
   double capture_ratio = 1.0;
 
   /// Does the kernel do for this impact parameter? (False for a NaN.)
-  [[gnu::always_inline]] bool fit(bool ahead, double b2) const {
+  LENSPLANE_ALWAYS_INLINE bool fit(bool ahead, double b2) const {
     return b2 >= (ahead ? least_b2 : least_b2_behind);
   }
   /// Is the light captured: no farther than b_c from a mass ahead?
-  [[gnu::always_inline]] bool capture(bool ahead, double b2) const {
+  LENSPLANE_ALWAYS_INLINE bool capture(bool ahead, double b2) const {
     const CriticalRadius critical = critical_radius(m * capture_ratio);
     return ahead & ((n * std::sqrt(b2) - critical.b_c) - critical.rest <= 0.0) & (capture_ratio != 0.0);
   }
@@ -165,8 +161,8 @@ struct Limits {
 
 /// Marks a ray that the kernel does not do for, or that is captured. `onward`: it has not turned back.
 template <Reach reach, class Number>
-[[gnu::always_inline]] inline void mark(int i, const Limits<reach>& limits, bool onward, bool ahead,
-                                        double b2, LineBatch<Number>& rays) {
+LENSPLANE_ALWAYS_INLINE inline void mark(int i, const Limits<reach>& limits, bool onward, bool ahead,
+                                         double b2, LineBatch<Number>& rays) {
   const bool fits = limits.fit(ahead, b2) & onward;
   if constexpr (reach == Reach::Near) {
     const bool captured = (rays.captured[i] != 0.0) | (onward & limits.capture(ahead, b2));

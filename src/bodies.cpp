@@ -17,16 +17,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-template <class Number>
-Vector<Number> constant(const Vec3& v) {
-  return {Number(v.x), Number(v.y), Number(v.z)};
-}
-
-template <class Number>
-Vector<Number> local_from_parent(const Basis& axes, const Vector<Number>& v) {
-  return {constant<Number>(axes.x).dot(v), constant<Number>(axes.y).dot(v), constant<Number>(axes.z).dot(v)};
-}
-
 /// Metres along a stretch to where it enters the ball, or else is nearest to its centre; within the stretch.
 template <class Number>
 Number way_to_ball(const RaySegment<Number>& stretch, const Sphere& sphere) {

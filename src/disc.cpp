@@ -13,11 +13,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-template <class Number>
-Vector<Number> constant(const Vec3& v) {
-  return {Number(v.x), Number(v.y), Number(v.z)};
-}
-
 Disc facing_camera(Disc disc) {
   if (disc.normal.dot(disc.centre) > 0.0) disc.normal = -disc.normal;
   return disc;

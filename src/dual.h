@@ -12,6 +12,8 @@
 
 #include <cmath>
 
+#include "src/inlining.h"
+
 namespace lensplane {
 
 struct Dual {
@@ -126,6 +128,12 @@ constexpr Dual select(bool condition, const Dual& a, const Dual& b) {
 template <class Number>
 using Vector = Imath::Vec3<Number>;
 using DualVec3 = Vector<Dual>;
+
+/// A vector that does not depend on the film position, as numbers of either kind.
+template <class Number>
+LENSPLANE_ALWAYS_INLINE inline Vector<Number> constant(const Imath::V3d& v) {
+  return {Number(v.x), Number(v.y), Number(v.z)};
+}
 
 inline Imath::V3d value_of(const DualVec3& a) {
   return {a.x.v, a.y.v, a.z.v};

@@ -25,6 +25,7 @@
 
 #include "src/deflection.h"
 #include "src/dual.h"
+#include "src/inlining.h"
 
 namespace lensplane {
 
@@ -60,11 +61,11 @@ struct ValueAndSlope {
 /// A polynomial, lowest power first, by Estrin's scheme: pairs of terms first, which wait for one another
 /// less than Horner's one after the other do.
 template <std::size_t terms>
-[[gnu::always_inline]] constexpr double polynomial_value(const std::array<double, terms>& c, double x) {
+LENSPLANE_ALWAYS_INLINE constexpr double polynomial_value(const std::array<double, terms>& c, double x) {
   if constexpr (terms == 1) {
     return c[0];
   } else {
-    const auto halved = [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
+    const auto halved = [&]<std::size_t... i>(std::index_sequence<i...>) LENSPLANE_ALWAYS_INLINE {
       return std::array<double, (terms + 1) / 2>{
           (2 * i + 1 < terms ? c[2 * i] + c[std::min(2 * i + 1, terms - 1)] * x : c[2 * i])...};
     };
@@ -82,20 +83,20 @@ constexpr std::array<double, terms - 1> derivative_of(const std::array<double, t
 
 /// A polynomial and its derivative at x.
 template <std::size_t terms>
-[[gnu::always_inline]] constexpr ValueAndSlope polynomial(const std::array<double, terms>& c, double x) {
+LENSPLANE_ALWAYS_INLINE constexpr ValueAndSlope polynomial(const std::array<double, terms>& c, double x) {
   return {polynomial_value(c, x), polynomial_value(derivative_of(c), x)};
 }
 
 /// F(x) for x = b_c/b <= kFarRatio, where alpha = x F(x). F(0) = 4/kCriticalRatio is the weak law.
 template <class Number>
-[[gnu::always_inline]] constexpr Number far_exact_ratio(const Number& x) {
+LENSPLANE_ALWAYS_INLINE constexpr Number far_exact_ratio(const Number& x) {
   const ValueAndSlope f = polynomial(kFar, value_of(x));
   return chained(x, f.value, f.slope);
 }
 
 /// ln(u) for u = 1 - x, given both because neither holds the other's last digits. Relative error kLogError
 /// for 1e-300 <= u <= 1e300, on both sides of 1; some number without meaning for other u.
-[[gnu::always_inline]] inline double log_of_share(double x, double u) {
+LENSPLANE_ALWAYS_INLINE inline double log_of_share(double x, double u) {
   // u = 2^k f with f in [sqrt(1/2), sqrt(2)): k stands in the bits of u above the 52 of the mantissa.
   constexpr auto kRootHalf = std::bit_cast<std::uint64_t>(0.5 * std::numbers::sqrt2);
   constexpr std::uint64_t kShift = std::bit_cast<std::uint64_t>(1.0) - kRootHalf;
@@ -121,7 +122,7 @@ struct CriticalRadius {
   double rest;  // what is missing
 };
 
-[[gnu::always_inline]] constexpr CriticalRadius critical_radius(double m) {
+LENSPLANE_ALWAYS_INLINE constexpr CriticalRadius critical_radius(double m) {
   // Products of half as long factors are exact (Dekker 1971). kRest = 3 sqrt(3) - kCriticalRatio.
   constexpr std::uint64_t kUpperHalf = ~((std::uint64_t{1} << 27) - 1);
   constexpr double kHigh = std::bit_cast<double>(std::bit_cast<std::uint64_t>(kCriticalRatio) & kUpperHalf);
@@ -139,7 +140,7 @@ struct Shares {
   double u;  // 1 - x, to its own last digit
 };
 
-[[gnu::always_inline]] constexpr Shares shares_of(double m, double b) {
+LENSPLANE_ALWAYS_INLINE constexpr Shares shares_of(double m, double b) {
   const CriticalRadius critical = critical_radius(m);
   const double per_b = 1.0 / b;
   return {critical.b_c * per_b, ((b - critical.b_c) - critical.rest) * per_b};
@@ -147,7 +148,7 @@ struct Shares {
 
 /// The exact angle and its derivative for b > kCriticalRatio m; for smaller b some numbers without meaning.
 /// In a loop over b the compiler computes what depends on m alone once.
-[[gnu::always_inline]] inline Deflection near_exact(double m, double b) {
+LENSPLANE_ALWAYS_INLINE inline Deflection near_exact(double m, double b) {
   const auto [x, u] = shares_of(m, b);
   const double log_u = log_of_share(x, u);
   const ValueAndSlope a_of = polynomial(kNearA, x - 0.5);

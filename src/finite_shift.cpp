@@ -5,11 +5,6 @@
 namespace lensplane {
 namespace {
 
-template <class Number>
-Vector<Number> constant(const Vec3& v) {
-  return {Number(v.x), Number(v.y), Number(v.z)};
-}
-
 /// Has a mass bent a stretch?
 enum class Bent {
   NotYet,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/batch.h"
+#include "src/inlining.h"
 
 namespace lensplane {
 namespace {
@@ -84,12 +85,13 @@ void all_stages(std::span<const PointMass> masses, LaneSteps<N>& steps) {
 
 }  // namespace
 
-LENSPLANE_KERNEL [[gnu::flatten]] void take_steps(std::span<const PointMass> masses,
-                                                  LaneSteps<double>& steps) {
+LENSPLANE_KERNEL LENSPLANE_FLATTEN void take_steps(std::span<const PointMass> masses,
+                                                   LaneSteps<double>& steps) {
   all_stages(masses, steps);
 }
 
-LENSPLANE_KERNEL [[gnu::flatten]] void take_steps(std::span<const PointMass> masses, LaneSteps<Dual>& steps) {
+LENSPLANE_KERNEL LENSPLANE_FLATTEN void take_steps(std::span<const PointMass> masses,
+                                                   LaneSteps<Dual>& steps) {
   all_stages(masses, steps);
 }
 

@@ -8,8 +8,12 @@
 
 namespace lensplane {
 
-/// Enough to fill the widest vector registers twice.
+/// Enough to fill the widest vector registers twice; few where lanes go one after the other.
+#ifdef LENSPLANE_SANITIZE
+inline constexpr int kLanes = 2;
+#else
 inline constexpr int kLanes = 16;
+#endif
 
 /// A number for each lane.
 template <class N>

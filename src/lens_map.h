@@ -40,7 +40,7 @@ std::vector<LensMap> trace_maps(const Tracer& tracer);
 
 /// The same for some rows only: maps of any size can be made in pieces. Pieces that begin at multiples of
 /// TileLevels::size are traced fastest. `maps`: those of another piece that is done with, whose memory is
-/// used again: fresh memory costs as much as tracing, and threads get it one after the other.
+/// used again: threads would have to wait for one another to get fresh memory.
 std::vector<LensMap> trace_maps(const Tracer& tracer, RowRange rows, std::vector<LensMap> maps = {});
 
 }  // namespace lensplane

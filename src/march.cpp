@@ -18,11 +18,6 @@ bool is_finite(const Vector<Number>& v) {
   return std::isfinite(value_of(v.x)) && std::isfinite(value_of(v.y)) && std::isfinite(value_of(v.z));
 }
 
-template <class Number>
-Vector<Number> constant(const Vec3& v) {
-  return {Number(v.x), Number(v.y), Number(v.z)};
-}
-
 /// The part of a unit `direction` along the normal of a plane: the rate at which the ray nears it.
 template <class Number>
 Number rate(const LensPlane& plane, const Vector<Number>& direction) {

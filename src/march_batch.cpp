@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "src/deflection.h"
+#include "src/inlining.h"
 
 namespace lensplane {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 // Taylor series in q = a^2, whose remainders are below 1e-16 for a <= kBatchAlpha = 0.5. Horner's form.
 
 /// sin(a)/a
-[[gnu::always_inline]] inline double sine_ratio(double q) {
+LENSPLANE_ALWAYS_INLINE inline double sine_ratio(double q) {
   double sum = 1.0 / 6227020800.0;   // 1/13!
   sum = sum * q - 1.0 / 39916800.0;  // 1/11!
   sum = sum * q + 1.0 / 362880.0;    // 1/9!
@@ -24,7 +25,7 @@ namespace {
 }
 
 /// cos(a)
-[[gnu::always_inline]] inline double cosine(double q) {
+LENSPLANE_ALWAYS_INLINE inline double cosine(double q) {
   double sum = -1.0 / 87178291200.0;  // 1/14!
   sum = sum * q + 1.0 / 479001600.0;  // 1/12!
   sum = sum * q - 1.0 / 3628800.0;    // 1/10!

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "src/inlining.h"
 #include "src/rotation.h"
 
 namespace lensplane {
@@ -28,7 +29,7 @@ struct SineAndCosine {
 };
 
 /// For 0 <= a <= kLongestTurn: quarter turns are taken away, then Taylor series for |r| <= pi/4.
-[[gnu::always_inline]] inline SineAndCosine sine_and_cosine(double a) {
+LENSPLANE_ALWAYS_INLINE inline SineAndCosine sine_and_cosine(double a) {
   // Adding 1.5 2^52 rounds to an integer, which then stands in the lowest bits.
   constexpr double kRound = 6755399441055744.0;
   const double shifted = a * (2.0 / std::numbers::pi) + kRound;
@@ -66,7 +67,7 @@ struct SineAndCosine {
 
 /// The rotation by the angle sqrt(q), for 0 <= q <= kLongestTurn^2.
 template <class Number>
-[[gnu::always_inline]] inline Turn<Number> near_turn(const Number& q) {
+LENSPLANE_ALWAYS_INLINE inline Turn<Number> near_turn(const Number& q) {
   const double q0 = value_of(q);
   const bool is_short = q0 <= kShortTurn * kShortTurn;
   const Turn<double> small = short_turn(is_short ? q0 : 0.0);

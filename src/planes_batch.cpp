@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "src/bend_strength.h"
+#include "src/inlining.h"
 
 namespace lensplane {
 namespace {
@@ -79,8 +80,8 @@ struct Tangent {
   double q1, q2;  // and along the normal of the bending plane
 };
 
-[[gnu::always_inline]] inline Tangent tangent_at(const Vec3& start, const Vec3& direction, const Vec3& across,
-                                                 const Vec3& normal, double along) {
+LENSPLANE_ALWAYS_INLINE inline Tangent tangent_at(const Vec3& start, const Vec3& direction,
+                                                  const Vec3& across, const Vec3& normal, double along) {
   const double p2 = dot(across, direction);
   const double q2 = dot(normal, direction);
   return {dot(across, start) + along * p2, p2, dot(normal, start) + along * q2, q2};
@@ -125,12 +126,12 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
     const Vec3 across_out = difference(scaled(across, r.cosine), scaled(d, b_sine));
     const Vec3 out = sum(scaled(d, r.cosine), scaled(across, sine_per_b));
 
-    const auto carried = [&](const Tangent& t) __attribute__((always_inline)) {
+    const auto carried = [&](const Tangent& t) LENSPLANE_ALWAYS_INLINE {
       const double along_across = t.p1 * per_b2;
       const double along_normal = (r.cosine * t.q1 + b_sine * t.q2) * per_b2;
       return sum(scaled(across_out, along_across), scaled(normal, along_normal));
     };
-    const auto turned = [&](const Tangent& t) __attribute__((always_inline)) {
+    const auto turned = [&](const Tangent& t) LENSPLANE_ALWAYS_INLINE {
       const double along_across = (t.p2 + strength.steepness * t.p1) * per_b2;
       const double along_normal = (r.cosine * t.q2 - sine_per_b * t.q1) * per_b2;
       return sum(scaled(across_out, along_across), scaled(normal, along_normal));

@@ -20,11 +20,6 @@ struct Line {
   Vector<Number> direction;
 };
 
-template <class Number>
-Vector<Number> constant(const Vec3& v) {
-  return {Number(v.x), Number(v.y), Number(v.z)};
-}
-
 /// What one plane does to a ray.
 template <class Number>
 struct Turning {

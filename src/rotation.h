@@ -10,6 +10,7 @@
 
 #include "src/dual.h"
 #include "src/exact_law.h"
+#include "src/inlining.h"
 
 namespace lensplane {
 
@@ -25,7 +26,7 @@ inline constexpr double kShortTurn = 0.15;
 
 /// By the Taylor series, without a branch. 0 <= q <= kShortTurn^2.
 template <class Number>
-[[gnu::always_inline]] inline Turn<Number> short_turn(const Number& q) {
+LENSPLANE_ALWAYS_INLINE inline Turn<Number> short_turn(const Number& q) {
   constexpr std::array kSine = {1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362880.0};
   constexpr std::array kVersine = {1.0 / 2.0, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40320.0, 1.0 / 3628800.0};
   const ValueAndSlope s = polynomial(kSine, value_of(q));

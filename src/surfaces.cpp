@@ -17,16 +17,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Number>
-Vector<Number> constant(const Vec3& v) {
-  return {Number(v.x), Number(v.y), Number(v.z)};
-}
-
-template <class Number>
-Vector<Number> local_from_parent(const Basis& axes, const Vector<Number>& v) {
-  return {constant<Number>(axes.x).dot(v), constant<Number>(axes.y).dot(v), constant<Number>(axes.z).dot(v)};
-}
-
-template <class Number>
 Vector<Number> parent_from_local(const Basis& axes, const Vector<Number>& v) {
   return constant<Number>(axes.x) * v.x + constant<Number>(axes.y) * v.y + constant<Number>(axes.z) * v.z;
 }

@@ -17,6 +17,12 @@
 
 namespace lensplane {
 
+/// A vector of the frame that holds `axes`, in those axes.
+template <class Number>
+Vector<Number> local_from_parent(const Basis& axes, const Vector<Number>& v) {
+  return {constant<Number>(axes.x).dot(v), constant<Number>(axes.y).dot(v), constant<Number>(axes.z).dot(v)};
+}
+
 enum class Outcome : std::uint8_t {
   Hit,       // (s, t) says where
   Missed,    // the ray goes past the surface, or meets it less often than is asked for

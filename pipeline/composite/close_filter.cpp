@@ -10,6 +10,7 @@
 #include "pipeline/composite/surface_kernel.h"
 #include "pipeline/composite/weighted_sum.h"
 #include "src/batch.h"
+#include "src/inlining.h"
 
 namespace lensplane {
 namespace {
@@ -81,7 +82,7 @@ Conditional conditional(const AxisFilter& along, const AxisFilter& across, doubl
 
 /// Adds texels side by side, number n by weight(n). No ellipse has so many that single precision lost them.
 template <class Weight>
-[[gnu::always_inline]] inline void add_texels(const Rgba* texels, int count, Weight weight, RowSum& sum) {
+LENSPLANE_ALWAYS_INLINE inline void add_texels(const Rgba* texels, int count, Weight weight, RowSum& sum) {
   for (int n = 0; n < count; ++n) sum.add(weight(n), texels[n]);
 }
 

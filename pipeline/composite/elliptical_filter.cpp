@@ -8,14 +8,15 @@
 #include "pipeline/composite/gaussian_window.h"
 #include "pipeline/composite/weighted_sum.h"
 #include "src/batch.h"
+#include "src/inlining.h"
 
 namespace lensplane {
 namespace {
 
 /// Adds `count` texels of a row; the first lies `offset` from the row's centre, and q = per_variance d^2 +
 /// base.
-[[gnu::always_inline]] inline void add_row(const Rgba* texels, int count, float offset, float per_variance,
-                                           float base, WeightedSum& total) {
+LENSPLANE_ALWAYS_INLINE inline void add_row(const Rgba* texels, int count, float offset, float per_variance,
+                                            float base, WeightedSum& total) {
   RowSum sum;
   for (int first = 0; first < count; first += 4) {
     const Float4 d = (offset + static_cast<float>(first)) + Float4{0, 1, 2, 3};
