@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 
 #include "src/planes_march.h"
@@ -59,22 +58,14 @@ TEST(HardCases, PlanesZeroOneUlpAnd1em15Apart) {
   EXPECT_LT(largest_difference(same, pair(-1e9 * (1 + 1e-11))), 1e-5);
 }
 
-#ifdef LENSPLANE_SANITIZE  // which makes every source thirty times slower
-constexpr std::array kCounts = {1, 1000};
-constexpr std::size_t kSourcesOfMaps = 50;
-#else
-constexpr std::array kCounts = {1, 1000, 100000};
-constexpr std::size_t kSourcesOfMaps = 1000;
-#endif
-
 TEST(HardCases, ManyEqualSourcesAtOnePointAreOneOfTheirMass) {
   const Vec3 place(2e7, 1e7, -1e9);
   const Scene one = view_of({{1e4, place}});
-  for (const int count : kCounts) {
+  for (const int count : {1, 1000, 100000}) {
     const Scene many = view_of(std::vector<Lens>(static_cast<std::size_t>(count), Lens{1e4 / count, place}));
     EXPECT_LT(largest_difference(one, many), 1e-15) << count;
   }
-  expect_finite_maps(view_of(std::vector<Lens>(kSourcesOfMaps, Lens{10.0, place})));
+  expect_finite_maps(view_of(std::vector<Lens>(1000, Lens{10.0, place})));
 }
 
 TEST(HardCases, TwoSourcesOneBitApartAreOneOfTheirMass) {

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -102,14 +101,8 @@ TEST(HardCases, RayParallelToThePlane) {
   EXPECT_TRUE(std::isfinite(p.last.x + p.last.y + p.last.z));
 }
 
-#ifdef LENSPLANE_SANITIZE  // which makes curved rays thirty times slower
-constexpr std::array kFieldsOfView = {1e-9, 60.0, 179.9};
-#else
-constexpr std::array kFieldsOfView = {1e-9, 1e-6, 1e-3, 1.0, 60.0, 120.0, 170.0, 179.0, 179.9};
-#endif
-
 TEST(HardCases, FieldsOfViewFrom1em9To179_9Degrees) {
-  for (const double fov : kFieldsOfView) {
+  for (const double fov : {1e-9, 1e-6, 1e-3, 1.0, 60.0, 120.0, 170.0, 179.0, 179.9}) {
     // A mass a fifth of the frame aside, its Einstein angle a tenth of the frame.
     const double half = std::tan(fov * kDegree / 2.0);
     const double width = std::min(half, 1.0);
