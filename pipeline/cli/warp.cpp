@@ -18,6 +18,7 @@
 #include "pipeline/image/display_writer.h"
 #include "pipeline/image/exr_writer.h"
 #include "pipeline/image/failure.h"
+#include "pipeline/image/image_reader.h"
 #include "pipeline/image/shipped.h"
 
 namespace lensplane {
@@ -74,7 +75,7 @@ Wrap wrap_of(const WarpOptions& warp) {
 }
 
 std::vector<Footprint> footprints_by_jacobian(const WarpOptions& warp, const StMap& map,
-                                              const Picture& picture) {
+                                              const PixelWindows& picture) {
   const Wrap wrap = wrap_of(warp);
   const MappedPicture mapped{picture.display_width, picture.display_height,
                              wrap == Wrap::Globe || wrap == Wrap::Repeat, wrap == Wrap::Repeat};
@@ -92,7 +93,7 @@ std::vector<Footprint> footprints_by_jacobian(const WarpOptions& warp, const StM
 
 /// An image has been through the filter of its own pixels: what is shown as large as it is stays as sharp.
 /// A little more is spared than that filter, so that the rounding of a map does not blur.
-std::vector<Footprint> footprints_of(const WarpOptions& warp, const StMap& map, const Picture& picture) {
+std::vector<Footprint> footprints_of(const WarpOptions& warp, const StMap& map, const PixelWindows& picture) {
   const Footprint point{.scale = 0};
   if (warp.filter == "none") return std::vector<Footprint>(map.s.size(), point);
   std::vector<Footprint> footprints = footprints_by_jacobian(warp, map, picture);
@@ -132,7 +133,7 @@ void run_warp(const Options& options) {
       colours.to_working(encoded, {space, std::nullopt, false}, kWorking), wrap_of(warp));
 
   std::vector<MapLayer> layers(1);
-  layers[0].footprints = footprints_of(warp, map, texture->picture());
+  layers[0].footprints = footprints_of(warp, map, texture->windows());
   layers[0].map = std::move(map);
   layers[0].look.texture = texture;
   write(warp, colours, composite_from_maps(layers), encoded.type, space);

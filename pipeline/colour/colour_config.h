@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/image/encoded_image.h"
 #include "pipeline/image/exr_format.h"
-#include "pipeline/image/image_reader.h"
 #include "pipeline/image/picture.h"
 
 namespace lensplane {

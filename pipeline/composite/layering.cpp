@@ -26,13 +26,15 @@ void lay_under(Rgba& over, const Rgba& under) {
   for (std::size_t c = 0; c < 4; ++c) over[c] += clear * under[c];
 }
 
-/// Lambert's law; the night shows as the light fades.
-Rgba lit(const Rgba& day, const std::optional<Rgba>& night, double cosine) {
-  Rgba colour = day;
+/// A sphere by Lambert's law; the night shows as the light fades.
+Rgba lit_sphere(const SurfaceLook& look, TextureCoordinates st, const Footprint& footprint) {
+  const double cosine = sphere_normal_from_st(st).dot(*look.light);
+  Rgba colour = look.texture->filtered(st, footprint);
   scale_colour(std::max(0.0, cosine), colour);
-  if (!night) return colour;
-  const double darkness = smooth_step(kTwilight, -kTwilight, cosine);
-  for (std::size_t c = 0; c < 3; ++c) colour[c] += static_cast<float>(darkness) * (*night)[c];
+  const double darkness = look.night ? smooth_step(kTwilight, -kTwilight, cosine) : 0.0;
+  if (darkness == 0.0) return colour;
+  const Rgba night = look.night->filtered(st, footprint);
+  for (std::size_t c = 0; c < 3; ++c) colour[c] += static_cast<float>(darkness) * night[c];
   return colour;
 }
 
@@ -69,13 +71,9 @@ SeenPoint seen_point(const SurfaceBatch& surface, std::size_t i) {
 
 Rgba shade(const Surface& surface, const SurfaceLook& look, TextureCoordinates st,
            const Footprint& footprint) {
+  if (look.light && std::holds_alternative<Sphere>(surface)) return lit_sphere(look, st, footprint);
   Rgba colour = look.texture->filtered(st, footprint);
-  if (!look.light) return colour;
-  if (std::holds_alternative<Sphere>(surface)) {
-    const auto night = look.night ? std::optional(look.night->filtered(st, footprint)) : std::nullopt;
-    return lit(colour, night, sphere_normal_from_st(st).dot(*look.light));
-  }
-  if (const auto* ring = std::get_if<Ring>(&surface); ring && look.caster) {
+  if (const auto* ring = std::get_if<Ring>(&surface); ring && look.light && look.caster) {
     const double width =
         (ring->outer - ring->inner) * footprint.scale * std::hypot(footprint.ds_dx, footprint.ds_dy);
     const Vec3 point = ring->axes.local_from_parent(ring_point_from_st(*ring, st) - ring->centre);

@@ -52,12 +52,8 @@ Reduction halve(int display, int x, int stored, Wrap wrap) {
   return reduction;
 }
 
-TexelWindow window_of(const Picture& picture) {
-  return {picture.x, picture.y, picture.width, picture.height, picture.display_width, picture.display_height};
-}
-
-Rgba texel(const Picture& picture, const TexelWindow& window, Wrap wrap, int column, int row) {
-  const TexelPlace place = place_of(window, wrap, column, row);
+Rgba texel(const Picture& picture, Wrap wrap, int column, int row) {
+  const TexelPlace place = place_of(picture, wrap, column, row);
   return place.count > 0 ? picture.at(place.column - picture.x, place.row - picture.y) : Rgba{0, 0, 0, 0};
 }
 
@@ -81,7 +77,6 @@ Picture narrowed(const Picture& fine, Wrap wrap) {
                  fine.display_height,
                  {}};
   coarse.pixels.resize(columns.taps.size() * static_cast<std::size_t>(coarse.height));
-  const TexelWindow window = window_of(fine);
   for_each_row(coarse, [&](int row) {
     for (int column = 0; column < coarse.width; ++column) {
       const Taps& taps = columns.taps[static_cast<std::size_t>(column)];
@@ -90,8 +85,7 @@ Picture narrowed(const Picture& fine, Wrap wrap) {
       Rgba sum{0, 0, 0, 0};
       for (int i = 0; i < count; ++i) {
         add(sum, taps.weights[static_cast<std::size_t>(i)],
-            inside ? fine.at(taps.first + i - fine.x, row)
-                   : texel(fine, window, wrap, taps.first + i, row + fine.y));
+            inside ? fine.at(taps.first + i - fine.x, row) : texel(fine, wrap, taps.first + i, row + fine.y));
       }
       coarse.at(column, row) = sum;
     }
@@ -104,7 +98,6 @@ Picture lowered(const Picture& fine, Wrap wrap) {
   Picture coarse{
       fine.width, static_cast<int>(rows.taps.size()), fine.x, rows.x, fine.display_width, rows.display, {}};
   coarse.pixels.resize(static_cast<std::size_t>(coarse.width) * rows.taps.size(), Rgba{0, 0, 0, 0});
-  const TexelWindow window = window_of(fine);
   for_each_row(coarse, [&](int row) {
     const Taps& taps = rows.taps[static_cast<std::size_t>(row)];
     for (std::size_t i = 0; i < taps.weights.size(); ++i) {
@@ -112,7 +105,7 @@ Picture lowered(const Picture& fine, Wrap wrap) {
       const bool inside = from >= fine.y && from < fine.y + fine.height;
       for (int column = 0; column < coarse.width; ++column) {
         add(coarse.at(column, row), taps.weights[i],
-            inside ? fine.at(column, from - fine.y) : texel(fine, window, wrap, column + fine.x, from));
+            inside ? fine.at(column, from - fine.y) : texel(fine, wrap, column + fine.x, from));
       }
     }
   });
@@ -129,7 +122,7 @@ double coarser_variance(double variance, int fine, int coarse) {
 
 Pyramid make_pyramid(Picture picture, Wrap wrap) {
   Pyramid pyramid;
-  pyramid.levels.push_back({window_of(picture), 0, 0});
+  pyramid.levels.push_back({picture, 0, 0});
   pyramid.pictures.push_back(std::move(picture));
   for (;;) {
     const Picture& fine = pyramid.pictures.back();
@@ -137,7 +130,7 @@ Pyramid make_pyramid(Picture picture, Wrap wrap) {
     Picture coarse = fine.display_width > 1 ? narrowed(fine, wrap) : fine;
     if (coarse.display_height > 1) coarse = lowered(coarse, wrap);
     const TexelLevel& last = pyramid.levels.back();
-    pyramid.levels.push_back({window_of(coarse),
+    pyramid.levels.push_back({coarse,
                               coarser_variance(last.variance_x, fine.display_width, coarse.display_width),
                               coarser_variance(last.variance_y, fine.display_height, coarse.display_height)});
     pyramid.pictures.push_back(std::move(coarse));

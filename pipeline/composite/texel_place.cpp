@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include "pipeline/composite/texel_window.h"
+#include "pipeline/composite/texel_place.h"
 
 #include <algorithm>
 
@@ -19,14 +19,14 @@ int mirrored(int i, int n) {
 }
 
 /// The place at a position that is not wrapped any more; `end`: where texels on the right end to follow it.
-TexelPlace stored_place(const TexelWindow& window, int column, int row, int end) {
+TexelPlace stored_place(const PixelWindows& window, int column, int row, int end) {
   if (!window.stores(column, row)) return {};
   return {column, row, std::min(end, window.x + window.width) - column};
 }
 
 }  // namespace
 
-TexelPlace place_of(const TexelWindow& window, Wrap wrap, int column, int row) {
+TexelPlace place_of(const PixelWindows& window, Wrap wrap, int column, int row) {
   const int width = window.display_width;
   const int height = window.display_height;
   const int right = window.x + window.width;  // past the last column that is stored

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "pipeline/composite/texel_window.h"
+#include "pipeline/composite/texel_place.h"
 #include "pipeline/image/picture.h"
 
 namespace lensplane {
@@ -18,7 +18,7 @@ namespace lensplane {
 /// One level of a pyramid. Its texels have been filtered; that filter's variance is known, so that a lookup
 /// filters the less.
 struct TexelLevel {
-  TexelWindow window;
+  PixelWindows window;
   double variance_x = 0;  // in texels of this level, squared
   double variance_y = 0;
 };
@@ -42,7 +42,7 @@ class Texels {
 
   /// `count` > 0 texels side by side, the first at any position of a level. Valid until the next call.
   const Rgba* row(int level, int column, int row, int count) {
-    const TexelWindow& window = levels_[static_cast<std::size_t>(level)].window;
+    const PixelWindows& window = levels_[static_cast<std::size_t>(level)].window;
     if (window.stores(column, row) && window.stores(column + count - 1, row)) {
       const TexelRun run = stored(level, {column, row, count});
       if (run.count >= count) return run.texels;
@@ -54,7 +54,7 @@ class Texels {
   /// The texel at any position of a level, and what follows it on its right.
   TexelRun run(int level, int column, int row) {
     static constexpr Rgba kClear{0, 0, 0, 0};
-    const TexelWindow& window = levels_[static_cast<std::size_t>(level)].window;
+    const PixelWindows& window = levels_[static_cast<std::size_t>(level)].window;
     if (window.stores(column, row)) return stored(level, {column, row, window.x + window.width - column});
     const TexelPlace place = place_of(window, wrap_, column, row);
     return place.count > 0 ? stored(level, place) : TexelRun{&kClear, 1};
@@ -64,7 +64,7 @@ class Texels {
     gathered_.assign(static_cast<std::size_t>(count), Rgba{0, 0, 0, 0});
     int from = 0, until = count;
     if (wrap_ == Wrap::Black) {  // there is nothing but what is stored
-      const TexelWindow& window = levels_[static_cast<std::size_t>(level)].window;
+      const PixelWindows& window = levels_[static_cast<std::size_t>(level)].window;
       from = std::max(0, window.x - column);
       until = window.stores(window.x, row) ? std::min(count, window.x + window.width - column) : 0;
     }

@@ -25,7 +25,7 @@ auto with_reader(const std::variant<Pyramid, TiledTexture>& source, Wrap wrap, a
 }
 
 Rgba bilinear(Texels& texels, TextureCoordinates st) {
-  const TexelWindow& window = texels.levels().front().window;
+  const PixelWindows& window = texels.levels().front().window;
   const double x = st.s * window.display_width - 0.5;
   const double y = (1.0 - st.t) * window.display_height - 0.5;
   const int column = clamped_floor(x);
@@ -55,9 +55,14 @@ Rgba Texture::filtered(TextureCoordinates st, const Footprint& footprint) const 
   return with_reader(source_, wrap_, [&](auto& texels) { return filtered_texels(texels, st, footprint); });
 }
 
-const Picture& Texture::picture() const {
+const PixelWindows& Texture::windows() const {
   if (const auto* pyramid = std::get_if<Pyramid>(&source_)) return pyramid->pictures.front();
   return std::get<TiledTexture>(source_).windows();
+}
+
+std::size_t Texture::bytes() const {
+  const auto* pyramid = std::get_if<Pyramid>(&source_);
+  return pyramid ? pyramid->pictures.front().pixels.size() * sizeof(Rgba) : 0;
 }
 
 std::int64_t Texture::not_numbers() const {

@@ -35,8 +35,11 @@ class Texture {
   /// Texels that were no numbers; of a tiled texture among those that have been read.
   std::int64_t not_numbers() const;
 
-  /// The picture; of a tiled texture its windows, without pixels.
-  const Picture& picture() const;
+  /// Of the finest level.
+  const PixelWindows& windows() const;
+
+  /// What the finest level takes in memory: nothing of a tiled texture, which is read when it is needed.
+  std::size_t bytes() const;
 
  private:
   std::variant<Pyramid, TiledTexture> source_;

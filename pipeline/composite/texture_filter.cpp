@@ -40,7 +40,7 @@ Covariance scaled(const Covariance& c, double x, double y) {
   return {c.xx * x * x, c.xy * x * y, c.yy * y * y};
 }
 
-Covariance limited(const Covariance& c, const TexelWindow& window, Wrap wrap) {
+Covariance limited(const Covariance& c, const PixelWindows& window, Wrap wrap) {
   const auto limit = [&](double variance, int size) {
     const double most = widest(wrap) * size;
     return variance > most * most ? most / std::sqrt(variance) : 1.0;
@@ -50,7 +50,7 @@ Covariance limited(const Covariance& c, const TexelWindow& window, Wrap wrap) {
 
 /// What is left for the elliptical filter to do on a level; `total` is to be done on the finest.
 Covariance left_on_level(const std::vector<TexelLevel>& levels, std::size_t level, const Covariance& total) {
-  const TexelWindow& whole = levels.front().window;
+  const PixelWindows& whole = levels.front().window;
   const TexelLevel& coarse = levels[level];
   Covariance left = scaled(total, static_cast<double>(coarse.window.display_width) / whole.display_width,
                            static_cast<double>(coarse.window.display_height) / whole.display_height);
@@ -70,14 +70,14 @@ double texels_in(const Covariance& c) {
 struct TexelPosition {
   double x, y;
 };
-TexelPosition position_on(const TexelWindow& window, TextureCoordinates st) {
+TexelPosition position_on(const PixelWindows& window, TextureCoordinates st) {
   constexpr double kFar = 1e8;  // farther out lookups need no more precision than texel numbers have
   return {std::clamp(st.s * window.display_width - 0.5, -kFar, kFar),
           std::clamp((1.0 - st.t) * window.display_height - 0.5, -kFar, kFar)};
 }
 
 /// Does an ellipse reach none of the stored texels, whatever filter is taken for it?
-bool is_beyond(const TexelWindow& window, const TexelPosition& at, const Covariance& pixel) {
+bool is_beyond(const PixelWindows& window, const TexelPosition& at, const Covariance& pixel) {
   constexpr double kReach = 8, kMore = 8;
   const double x = kReach * std::sqrt(pixel.xx) + kMore, y = kReach * std::sqrt(pixel.yy) + kMore;
   return at.x < window.x - x || at.x > window.x + window.width + x || at.y < window.y - y ||
@@ -101,7 +101,7 @@ Rgba elliptical(Texels& texels, TextureCoordinates st, const Covariance& pixel, 
 /// Under a footprint that is straight enough to be an ellipse. `part` of a pixel: so much of the most that a
 /// lookup may cost.
 Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint, double part) {
-  const TexelWindow& window = texels.levels().front().window;
+  const PixelWindows& window = texels.levels().front().window;
   const Covariance whole = covariance_in_texels(footprint, window.display_width, window.display_height);
   const double scale = std::clamp(footprint.scale, 0.0, 1e3);
   Covariance pixel = limited(scaled(whole, scale, scale), window, texels.wrap());

@@ -27,7 +27,7 @@ TiledTexture::TiledTexture(std::shared_ptr<const TiledImage> image, ToWorking to
   windows_.width = windows_.display_width = finest.width;
   windows_.height = windows_.display_height = finest.height;
   for (const auto& [width, height] : image_->levels()) {
-    levels_.push_back({{0, 0, width, height, width, height},
+    levels_.push_back({{width, height, 0, 0, width, height},
                        box_variance(static_cast<double>(finest.width) / width),
                        box_variance(static_cast<double>(finest.height) / height)});
   }

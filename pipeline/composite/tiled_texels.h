@@ -33,7 +33,7 @@ class TiledTexture {
                std::shared_ptr<TileCache> cache);
 
   const std::vector<TexelLevel>& levels() const { return levels_; }
-  const Picture& windows() const { return windows_; }
+  const PixelWindows& windows() const { return windows_; }
   int tile_width() const { return image_->tile_width(); }
   int tile_height() const { return image_->tile_height(); }
 
@@ -48,7 +48,7 @@ class TiledTexture {
   std::shared_ptr<TileCache> cache_;
   int number_ = 0;
   std::vector<TexelLevel> levels_;
-  Picture windows_;
+  PixelWindows windows_;
   std::shared_ptr<std::atomic<std::int64_t>> not_numbers_;
 };
 

@@ -10,6 +10,7 @@
 
 #include "pipeline/image/failure.h"
 #include "pipeline/image/image_reader.h"
+#include "pipeline/image/pixel_layout.h"
 
 namespace lensplane {
 namespace {
@@ -86,13 +87,7 @@ StOrigin origin_of(const ChannelFile& file, std::optional<StOrigin> said) {
 StMap read_st_map(const std::filesystem::path& path, std::optional<StOrigin> origin) {
   ChannelFile file(path, "map");
   const OIIO::ImageSpec& spec = file.spec();
-  StMap map;
-  map.width = spec.width;
-  map.height = spec.height;
-  map.x = spec.x - spec.full_x;
-  map.y = spec.y - spec.full_y;
-  map.display_width = spec.full_width;
-  map.display_height = spec.full_height;
+  StMap map{windows_of(spec), false, {}, {}, {}};
   for (const char* name : {"R", "G"}) {
     const int channel = spec.channelindex(name);
     if (channel < 0) file.refuse(fmt::format("it has no channel {}; needed: R = s and G = t", name));
@@ -114,12 +109,10 @@ StMap read_st_map(const std::filesystem::path& path, std::optional<StOrigin> ori
 MapData read_map_data(const std::filesystem::path& path, const StMap& map) {
   ChannelFile file(path, "data file");
   const OIIO::ImageSpec& spec = file.spec();
-  const bool same = spec.width == map.width && spec.height == map.height && spec.x - spec.full_x == map.x &&
-                    spec.y - spec.full_y == map.y;
-  if (!same) {
-    file.refuse(fmt::format("{} x {} pixels from ({}, {}), its map {} x {} from ({}, {})", spec.width,
-                            spec.height, spec.x - spec.full_x, spec.y - spec.full_y, map.width, map.height,
-                            map.x, map.y));
+  const PixelWindows own = windows_of(spec);
+  if (own.width != map.width || own.height != map.height || own.x != map.x || own.y != map.y) {
+    file.refuse(fmt::format("{} x {} pixels from ({}, {}), its map {} x {} from ({}, {})", own.width,
+                            own.height, own.x, own.y, map.width, map.height, map.x, map.y));
   }
   MapData data;
   MapJacobian jacobian{file.read("jacobian.ds_dx"), file.read("jacobian.ds_dy"), file.read("jacobian.dt_dx"),

@@ -9,27 +9,19 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline/image/pixel_windows.h"
+
 namespace lensplane {
 
 /// Where t = 0 lies.
 enum class StOrigin { BottomLeft, TopLeft };
 
-/// Which point of a picture is seen at every pixel, row by row from the top. The data window lies in the
-/// display window as Picture says. s and t are finite; origin at the bottom left, as everywhere in memory.
-struct StMap {
-  int width = 0;
-  int height = 0;
-  int x = 0;
-  int y = 0;
-  int display_width = 0;
-  int display_height = 0;
+/// Which point of a picture is seen at every pixel, row by row from the top. s and t are finite; origin at
+/// the bottom left, as everywhere in memory.
+struct StMap : PixelWindows {
   bool half = false;  // s and t were stored as half: blocks of up to half a pixel and more
   std::vector<float> s, t;
   std::vector<float> coverage;  // 0 to 1; 0 where s and t mean nothing
-
-  std::size_t index(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
-  }
 };
 
 /// Derivatives of s and t by the film position, per pixel; x to the right, y down.

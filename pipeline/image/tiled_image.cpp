@@ -2,6 +2,8 @@
 
 #include "pipeline/image/tiled_image.h"
 
+#include <OpenImageIO/imagecache.h>
+#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -77,13 +79,8 @@ EncodedImage TiledImage::tile(int level, int column, int row) const {
   const Level& size = levels_[static_cast<std::size_t>(level)];
   const int left = column * tile_width_, right = std::min(left + tile_width_, size.width);
   const int top = row * tile_height_, bottom = std::min(top + tile_height_, size.height);
-  EncodedImage image{.width = right - left,
-                     .height = bottom - top,
-                     .x = 0,
-                     .y = 0,
-                     .display_width = right - left,
-                     .display_height = bottom - top,
-                     .samples = {}};
+  const int width = right - left, height = bottom - top;
+  EncodedImage image{{width, height, 0, 0, width, height}, layout_.type, false, true, {}};
   std::vector<std::byte> file(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
                               static_cast<std::size_t>(layout_.channels) * size_of(layout_.type));
   const OIIO::ustring name(path_);

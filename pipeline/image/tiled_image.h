@@ -3,18 +3,22 @@
 // Image files larger than memory: tiled, with their pyramid in the file, read tile by tile.
 //
 // `maketx` writes such files (.tx; TIFF or EXR inside). OpenImageIO's ImageCache keeps them open and holds
-// what it reads within a budget of its own. Values are as stored, as in image_reader.h.
+// what it reads within a budget of its own. Values are as stored, as in encoded_image.h.
 
 #pragma once
 
-#include <OpenImageIO/imagecache.h>
+#include <OpenImageIO/oiioversion.h>
 
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "pipeline/image/image_reader.h"
+#include "pipeline/image/pixel_layout.h"
+
+OIIO_NAMESPACE_BEGIN
+class ImageCache;
+OIIO_NAMESPACE_END
 
 namespace lensplane {
 

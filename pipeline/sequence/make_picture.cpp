@@ -30,7 +30,7 @@ void report_images(const Shot& shot, const std::vector<SurfaceLook>& looks, Fram
     std::int64_t not_numbers = 0;
     for (const auto& texture : {looks[k].texture, looks[k].night}) {
       if (!texture) continue;
-      report[Phase::Load].bytes += texture->picture().pixels.size() * sizeof(Rgba);
+      report[Phase::Load].bytes += texture->bytes();
       not_numbers += texture->not_numbers();
     }
     if (not_numbers > 0) report.replaced.push_back({shot.layers[surfaces[k].layer].name, not_numbers});

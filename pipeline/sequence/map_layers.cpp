@@ -63,7 +63,7 @@ std::vector<MapLayer> load_map_layers(const Shot& shot, const Scene& scene,
     layer.look = looks[*surfaces[k]];
     layer.distance = distance_of(surface, scene.camera.position);
     layer.surface = surface;
-    const Picture& picture = layer.look.texture->picture();
+    const PixelWindows& picture = layer.look.texture->windows();
     const MappedPicture mapped{
         picture.display_width, picture.display_height,
         std::holds_alternative<LatLong>(surface) || std::holds_alternative<Sphere>(surface), false};

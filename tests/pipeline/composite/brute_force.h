@@ -14,8 +14,8 @@
 
 namespace lensplane {
 
-/// Takes pixels by `density` x `density` rays a square pixel, up to 4 standard deviations of the pixel filter
-/// from their centres.
+/// Takes pictures by `density` x `density` rays a square pixel: lines of rays go over the whole film, and
+/// each ray counts for every pixel whose centre is within 4 standard deviations of the pixel filter.
 class BruteForce {
  public:
   BruteForce(const Tracer& tracer, const std::vector<SurfaceLook>& looks, int density)
@@ -26,37 +26,79 @@ class BruteForce {
         density_(density),
         reach_(static_cast<int>(4 * kPixelSigma * density)) {}
 
-  Rgba pixel(int column, int row) {
-    sum_ = {};
-    weights_ = 0;
-    for (int j = -reach_; j < reach_; ++j) {
-      for (int first = -reach_; first < reach_; first += kBatchSize) {
-        for (int i = 0; i < kBatchSize; ++i) {
-          batch_.x[i] = column + 0.5 + off(first + i);
-          batch_.y[i] = row + 0.5 + off(j);
-        }
-        tracer_.trace(batch_);
-        for (int i = 0; i < std::min(kBatchSize, reach_ - first); ++i) {
-          const double x = off(first + i), y = off(j);
-          add(std::exp(-(x * x + y * y) / (2 * kPixelSigma * kPixelSigma)), static_cast<std::size_t>(i));
-        }
+  /// The camera's picture without overscan.
+  Picture picture() {
+    const int width = tracer_.camera().width, height = tracer_.camera().height;
+    std::vector<Sum> sums(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    for (int line = first_line(0); line < first_line(height - 1) + 2 * reach_; ++line) {
+      const std::vector<Sum> pixels = weighed_along(line_of_rays(line, width), width);
+      for (int row = 0; row < height; ++row) {
+        const double weight = weight_of(line, row);
+        Sum* const first = &sums[static_cast<std::size_t>(row) * pixels.size()];
+        for (std::size_t i = 0; weight > 0 && i < pixels.size(); ++i) add(pixels[i], weight, first[i]);
       }
     }
-    Rgba mean;
-    for (std::size_t c = 0; c < 4; ++c) mean[c] = static_cast<float>(sum_[c] / weights_);
-    return mean;
+    Picture picture{width, height, 0, 0, width, height, {}};
+    for (const Sum& sum : sums) {
+      picture.pixels.emplace_back();
+      for (std::size_t c = 0; c < 4; ++c) {
+        picture.pixels.back()[c] = static_cast<float>(sum[c] / sum[4]);
+      }
+    }
+    return picture;
   }
 
  private:
-  /// Of ray number n of a line from the pixel's centre.
-  double off(int n) const { return (n + 0.5) / density_; }
+  /// Colour times weight, and the weight.
+  using Sum = std::array<double, 5>;
 
-  /// Adds what ray `i` of the batch sees.
-  void add(double weight, std::size_t i) {
-    for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
-    const Rgba colour = viewer_.see(points_, 0);
-    for (std::size_t c = 0; c < 4; ++c) sum_[c] += weight * static_cast<double>(colour[c]);
-    weights_ += weight;
+  static void add(const Sum& what, double weight, Sum& sum) {
+    for (std::size_t c = 0; c < 5; ++c) sum[c] += weight * what[c];
+  }
+
+  /// Where line or column number n of rays is on the film, in pixels.
+  double place(int n) const { return 0.5 + (n + 0.5) / density_; }
+
+  /// The first line that counts for a row of pixels: 2 reach_ of them do.
+  int first_line(int row) const { return row * density_ - reach_; }
+
+  /// Of a line or column of rays for a row or column of pixels.
+  double weight_of(int line, int row) const {
+    const int n = line - first_line(row);
+    const double off = place(line) - (row + 0.5);
+    return n >= 0 && n < 2 * reach_ ? std::exp(-off * off / (2 * kPixelSigma * kPixelSigma)) : 0;
+  }
+
+  /// What the rays of a line see, from the first column's first to the last one's last.
+  std::vector<Rgba> line_of_rays(int line, int width) {
+    const int first = first_line(0), end = first_line(width - 1) + 2 * reach_;
+    std::vector<Rgba> colours;
+    for (int start = first; start < end; start += kBatchSize) {
+      for (int i = 0; i < kBatchSize; ++i) {
+        batch_.x[i] = place(start + i);
+        batch_.y[i] = place(line);
+      }
+      tracer_.trace(batch_);
+      for (int i = 0; i < std::min(kBatchSize, end - start); ++i) {
+        const auto ray = static_cast<std::size_t>(i);
+        for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], ray);
+        colours.push_back(viewer_.see(points_, 0));
+      }
+    }
+    return colours;
+  }
+
+  /// The line's share in the pixels of a row that it runs through the middle of.
+  std::vector<Sum> weighed_along(const std::vector<Rgba>& colours, int width) const {
+    std::vector<Sum> pixels(static_cast<std::size_t>(width));
+    for (int column = 0; column < width; ++column) {
+      for (int n = first_line(column); n < first_line(column) + 2 * reach_; ++n) {
+        const Rgba& colour = colours[static_cast<std::size_t>(n - first_line(0))];
+        add({colour[0], colour[1], colour[2], colour[3], 1}, weight_of(n, column),
+            pixels[static_cast<std::size_t>(column)]);
+      }
+    }
+    return pixels;
   }
 
   const Tracer& tracer_;
@@ -64,19 +106,10 @@ class BruteForce {
   TraceBatch batch_;
   std::vector<SeenPoint> points_;
   int density_, reach_;
-  std::array<double, 4> sum_{};
-  double weights_ = 0;
 };
 
-/// The camera's picture without overscan.
 inline Picture brute_force(const Tracer& tracer, const std::vector<SurfaceLook>& looks, int density) {
-  const int width = tracer.camera().width, height = tracer.camera().height;
-  BruteForce rays(tracer, looks, density);
-  Picture picture{width, height, 0, 0, width, height, {}};
-  for (int row = 0; row < height; ++row) {
-    for (int column = 0; column < width; ++column) picture.pixels.push_back(rays.pixel(column, row));
-  }
-  return picture;
+  return BruteForce(tracer, looks, density).picture();
 }
 
 /// How far two pictures of one size are apart, over all channels.

@@ -209,9 +209,6 @@ Picture detailed_plate() {
 }
 
 TEST(CompositorLight, BeyondItsEdgesAPlateGoesOnAsItIsTold) {
-#ifdef LENSPLANE_SANITIZE
-  GTEST_SKIP() << "so many rays for every pixel take minutes under the sanitizers";
-#endif
   Scene scene = lensed_scene(18, 12, 7);
   scene.surfaces = {Plate{}};
   const Tracer tracer = tracer_of(scene);
@@ -231,9 +228,6 @@ TEST(CompositorLight, BeyondItsEdgesAPlateGoesOnAsItIsTold) {
 }
 
 TEST(CompositorLight, MoreRaysComeNearerToTheTruth) {
-#ifdef LENSPLANE_SANITIZE
-  GTEST_SKIP() << "so many rays for every pixel take minutes under the sanitizers";
-#endif
   Scene scene = lensed_scene(16, 16, 4);
   scene.surfaces = {Sphere{{3e3, 2e3, -2e9}, 1.1e4, {}}, Plate{}};
   const Tracer tracer = tracer_of(scene);

@@ -14,7 +14,7 @@ namespace lensplane {
 /// The pixel filter summed up over a lattice of film positions that reaches 4.5 standard deviations and is
 /// finer than the texels.
 inline Rgba reference_filtered(const Texture& texture, TextureCoordinates st, const Footprint& footprint) {
-  const double width = texture.picture().display_width, height = texture.picture().display_height;
+  const double width = texture.windows().display_width, height = texture.windows().display_height;
   const double xx = footprint.ds_dx * width, xy = footprint.ds_dy * width;
   const double yx = footprint.dt_dx * height, yy = footprint.dt_dy * height;
   // The lattice is turned so that one of its directions is the film's that sees the longer axis.
@@ -47,7 +47,7 @@ inline Rgba reference_filtered(const Texture& texture, TextureCoordinates st, co
 
 /// A footprint of `major` x `minor` texels to the pixel, the longer one turned by `angle` (radians) from the
 /// right towards below, the film itself by `film_angle`.
-inline Footprint footprint_of(const Picture& picture, double major, double minor, double angle,
+inline Footprint footprint_of(const PixelWindows& picture, double major, double minor, double angle,
                               double film_angle = 0) {
   const double c = std::cos(angle), s = std::sin(angle), fc = std::cos(film_angle), fs = std::sin(film_angle);
   const double xx = c * major * fc + s * minor * fs, xy = c * major * fs - s * minor * fc;

@@ -49,7 +49,7 @@ double decibels(const Texture& texture, const Sizes& sizes, int lookups, double 
     const double minor = sizes.least * std::pow(sizes.most / sizes.least, uniform(random));
     const double major = minor * std::pow(sizes.longest, uniform(random));
     const Footprint footprint =
-        footprint_of(texture.picture(), major, minor, 2 * kPi * uniform(random), 2 * kPi * uniform(random));
+        footprint_of(texture.windows(), major, minor, 2 * kPi * uniform(random), 2 * kPi * uniform(random));
     const Rgba got = texture.filtered(st, footprint), expected = reference_filtered(texture, st, footprint);
     for (std::size_t c = 0; c < 3; ++c) squares += std::pow(static_cast<double>(got[c] - expected[c]), 2) / 3;
   }
@@ -122,7 +122,7 @@ TEST(TextureFilter, ItIsAsWideAsThePixelFilter) {
                                     return Rgba{value, value, value, 1};
                                   }),
                           Wrap::Repeat);
-    const float got = texture.filtered({0, 0.4}, footprint_of(texture.picture(), texels, texels, 0))[0];
+    const float got = texture.filtered({0, 0.4}, footprint_of(texture.windows(), texels, texels, 0))[0];
     EXPECT_NEAR(got, std::exp(-std::pow(per_texel * sigma, 2) / 2), 0.012) << texels;
   }
 }
@@ -134,7 +134,7 @@ TEST(TextureFilter, WhatIsConstantStaysConstant) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> uniform(-0.5, 1.5), power(-3, 5);
     for (int i = 0; i < 500; ++i) {
-      const Footprint footprint = footprint_of(texture.picture(), std::pow(10, power(random)),
+      const Footprint footprint = footprint_of(texture.windows(), std::pow(10, power(random)),
                                                std::pow(10, power(random)), uniform(random) * 7);
       const Rgba got = texture.filtered({uniform(random), uniform(random)}, footprint);
       for (std::size_t c = 0; c < 4; ++c) ASSERT_NEAR(got[c] / colour[c], 1, 1e-5);
@@ -153,7 +153,7 @@ TEST(TextureFilter, LightIsKept) {
       Wrap::Black);
   for (const double texels : {0.2, 0.7, 1.0, 1.15, 1.7, 2.3, 3.1, 4.4, 6.0, 9.0}) {
     double sum = 0;
-    const Footprint footprint = footprint_of(texture.picture(), texels, texels, 0);
+    const Footprint footprint = footprint_of(texture.windows(), texels, texels, 0);
     for (double y = 0.1; y < 96; y += texels / 2) {
       for (double x = 0.2; x < 96; x += texels / 2) {
         const Rgba got = texture.filtered({x / 96, 1 - y / 96}, footprint);
@@ -170,7 +170,7 @@ TEST(TextureFilter, NothingJumpsWhenFootprintsGrow) {
   for (const double ratio : {1.0, 3.0}) {
     for (double texels = 0.02; texels < 60; texels *= 1.002) {
       const auto at = [&](double size) {
-        return texture.filtered({0.312, 0.57}, footprint_of(texture.picture(), size * ratio, size, 0.4));
+        return texture.filtered({0.312, 0.57}, footprint_of(texture.windows(), size * ratio, size, 0.4));
       };
       const Rgba here = at(texels), next = at(texels * 1.002);
       for (std::size_t c = 0; c < 4; ++c) ASSERT_NEAR(here[c], next[c], 0.008) << texels << " " << ratio;
@@ -185,7 +185,7 @@ TEST(TextureFilter, MagnifiedItIsSmoothAndNeverNegative) {
                                 }),
                         Wrap::Clamp);
   // Second differences along a line: the bilinear surface has creases of 0.03 to the step here.
-  const Footprint footprint = footprint_of(texture.picture(), 0.03, 0.03, 0);
+  const Footprint footprint = footprint_of(texture.windows(), 0.03, 0.03, 0);
   const auto along = [&](double x) { return texture.filtered({x / 32, 15.6 / 32}, footprint)[0]; };
   for (double x = 13; x < 20; x += 0.03) {
     EXPECT_GE(along(x), 0);
@@ -203,7 +203,7 @@ TEST(TextureFilter, TheSeamOfAGlobeIsNotSeen) {
                                 }),
                         Wrap::Globe);
   for (const double texels : {0.2, 1.0, 3.0, 10.0}) {
-    const Footprint footprint = footprint_of(texture.picture(), texels, texels, 0.2);
+    const Footprint footprint = footprint_of(texture.windows(), texels, texels, 0.2);
     for (double s = -0.02; s < 0.02; s += 0.001) {
       const double blur = 2 * kPi * texels / 200 * kPixelSigma;
       const double expected = std::cos(2 * kPi * s) * std::exp(-0.5 * blur * blur);
@@ -253,9 +253,9 @@ TEST(TextureFilter, PolesAreFilteredAsAnyOtherPlace) {
 
 TEST(TextureFilter, FootprintsWithinAPixelAreNarrower) {
   const Texture texture(zone_plate(256), Wrap::Clamp);
-  Footprint part = footprint_of(texture.picture(), 4, 2, 0.3);
+  Footprint part = footprint_of(texture.windows(), 4, 2, 0.3);
   part.scale = 0.25;
-  const Footprint small = footprint_of(texture.picture(), 1, 0.5, 0.3);
+  const Footprint small = footprint_of(texture.windows(), 1, 0.5, 0.3);
   const Rgba a = texture.filtered({0.6, 0.7}, part), b = texture.filtered({0.6, 0.7}, small);
   for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(a[c], b[c], 1e-6);
 }

@@ -54,9 +54,9 @@ TEST_F(FrameLooks, LightIsInTheSpheresOwnAxes) {
   EXPECT_EQ(day[0].night, nullptr);
   EXPECT_FALSE(day[0].caster.has_value());
   EXPECT_FALSE(day[1].light.has_value());
-  EXPECT_NEAR(day[0].texture->picture().at(0, 0)[0], 1, 1e-4);
+  EXPECT_NEAR(day[0].texture->lookup({0.5, 0.5})[0], 1, 1e-4);
   const auto night = looks(light + ", night: " + at("black.png"), "type: plate");
-  EXPECT_EQ(night[0].night->picture().at(0, 0)[0], 0);
+  EXPECT_EQ(night[0].night->lookup({0.5, 0.5})[0], 0);
   EXPECT_FALSE(looks("rotation: [0 deg, 90 deg, 0 deg]", "type: plate")[0].light.has_value());
 }
 

@@ -35,8 +35,8 @@ TEST(TextureStore, KeepsStillsAndReadsSequencesByFrame) {
   const ColourConfig colours = builtin();
   TextureStore store(shot, colours);
   EXPECT_EQ(store.texture(0, 1), store.texture(0, 2));
-  EXPECT_EQ(store.texture(1, 1)->picture().at(0, 0)[0], 0);
-  EXPECT_NEAR(store.texture(1, 2)->picture().at(0, 0)[0], 1, 1e-4);
+  EXPECT_EQ(store.texture(1, 1)->lookup({0.5, 0.5})[0], 0);
+  EXPECT_NEAR(store.texture(1, 2)->lookup({0.5, 0.5})[0], 1, 1e-4);
   EXPECT_NE(store.digest(1, 1), store.digest(1, 2));
   const Refusal missing = refusal_of([&] { store.texture(1, 3); });
   EXPECT_EQ(missing.code, ExitCode::BadInput);
@@ -60,8 +60,8 @@ TEST(TextureStore, NightIsAnImageOfItsOwn) {
   const ColourConfig colours = builtin();
   const Shot both = shot_with(at("night.png")), day = shot_with("null"), missing = shot_with(at("none.png"));
   TextureStore store(both, colours), day_store(day, colours), missing_store(missing, colours);
-  EXPECT_NEAR(store.texture(0, 1)->picture().at(0, 0)[0], 1, 1e-4);
-  EXPECT_EQ(store.night(0, 1)->picture().at(0, 0)[0], 0);
+  EXPECT_NEAR(store.texture(0, 1)->lookup({0.5, 0.5})[0], 1, 1e-4);
+  EXPECT_EQ(store.night(0, 1)->lookup({0.5, 0.5})[0], 0);
   EXPECT_EQ(store.night(0, 1), store.night(0, 2));
   EXPECT_EQ(day_store.night(0, 1), nullptr);
   EXPECT_NE(store.digest(0, 1), day_store.digest(0, 1));

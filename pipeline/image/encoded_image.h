@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pixels in memory as they are on disk: values as stored, colour not yet interpreted.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "pipeline/image/pixel_windows.h"
+
+namespace lensplane {
+
+enum class SampleType { UInt8, UInt16, Half, Float };
+
+/// Size of one sample in bytes.
+constexpr std::size_t size_of(SampleType type) {
+  return type == SampleType::UInt8 ? 1 : type == SampleType::Float ? 4 : 2;
+}
+
+/// RGBA samples row by row from the top, in the file's own type and encoding. Grey files have R = G = B,
+/// files without alpha have it at full.
+struct EncodedImage : PixelWindows {
+  SampleType type = SampleType::Float;
+  bool has_alpha = false;
+  bool premultiplied = true;  // whether colours are premultiplied by alpha; true without alpha
+  std::vector<std::byte> samples;
+};
+
+}  // namespace lensplane
