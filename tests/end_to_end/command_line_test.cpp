@@ -204,7 +204,7 @@ TEST(CommandLine, EveryChangeOfWhatIsSeenIsRenderedAnew) {
         "camera.rotation=[0.1 deg, 0 deg, 0 deg]", "fps=25", "trace.method=kishi",
         "layers.earth.radius=6372 km", "layers.earth.centre=[1 m, 0 m, -1.09e9 m]",
         "layers.earth.rotation=[0 deg, 1 deg, 0 deg]", "layers.earth.light=[0, 0, 1]",
-        "layers.earth.image=day.ppm", "layers.earth.image={file: night.ppm, space: ACEScg}",
+        "layers.earth.image=day.ppm", "layers.earth.image={file: night.ppm, space: ACES2065-1}",
         "output.image={type: float}", "output.image={compression: piz}", "output.locator=beside",
         "colour.view=Un-tone-mapped", "colour.working=ACES2065-1"}) {
     auto words = render;
