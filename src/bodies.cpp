@@ -17,19 +17,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Metres along a stretch to where it enters the ball, or else is nearest to its centre; within the stretch.
-template <class Number>
-Number way_to_ball(const RaySegment<Number>& stretch, const Sphere& sphere) {
-  const Vector<Number> to_centre = constant<Number>(sphere.centre) - stretch.start;
-  const Number along = to_centre.dot(stretch.direction);
-  const Vector<Number> across = to_centre - stretch.direction * along;
-  const Number half_chord2 = Number(sphere.radius * sphere.radius) - across.dot(across);
-  const Number way = value_of(half_chord2) > 0.0 ? along - sqrt(half_chord2) : along;
-  if (!(value_of(way) > 0.0)) return 0.0;
-  // Its end bounds the stretch as a number: batches do not keep that length's derivatives.
-  return value_of(way) < value_of(stretch.length) ? way : Number(value_of(stretch.length));
-}
-
 /// Chords, between planes' foot points, are every other segment of a path whose finite distances count.
 constexpr bool is_chord(std::size_t segment) {
   return segment % 2 == 1;
@@ -163,7 +150,8 @@ Number sphere_entry(const Vector<Number>& start, const Vector<Number>& direction
 template <class Number>
 RaySegment<Number> shifted_to_ball(const Deflectors& deflectors, const RaySegment<Number>& stretch,
                                    const Sphere& sphere) {
-  return shifted(deflectors, stretch, way_to_ball(stretch, sphere));
+  return shifted(deflectors, stretch,
+                 way_to_ball(sphere, stretch.start, stretch.direction, value_of(stretch.length)));
 }
 
 template <class Number>

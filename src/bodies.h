@@ -7,6 +7,7 @@
 
 #pragma once
 
+#include "src/inlining.h"
 #include "src/surfaces.h"
 
 namespace lensplane {
@@ -18,6 +19,20 @@ bool is_body(const Surface& surface);
 template <class Number>
 Number sphere_entry(const Vector<Number>& start, const Vector<Number>& direction, const Vec3& centre,
                     double radius);
+
+/// Metres along a stretch of that length to where it enters the ball, or else is nearest to its centre.
+/// Without branches, for loops over batches, which do not keep the derivatives of the length.
+template <class Number>
+LENSPLANE_ALWAYS_INLINE inline Number way_to_ball(const Sphere& sphere, const Vector<Number>& start,
+                                                  const Vector<Number>& direction, double length) {
+  const Vector<Number> to_centre = constant<Number>(sphere.centre) - start;
+  const Number along = to_centre.dot(direction);
+  const Vector<Number> across = to_centre - direction * along;
+  const Number half_chord2 = Number(sphere.radius * sphere.radius) - across.dot(across);
+  const bool enters = value_of(half_chord2) > 0.0;
+  const Number way = select(enters, along - sqrt(select(enters, half_chord2, Number(1.0))), along);
+  return select(value_of(way) > 0.0, select(value_of(way) < length, way, Number(length)), Number(0.0));
+}
 
 /// A straight stretch as it truly runs at the ball; see finite_shift.h.
 template <class Number>

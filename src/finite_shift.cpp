@@ -2,64 +2,17 @@
 
 #include "src/finite_shift.h"
 
+#include "src/mass_shift.h"
+
 namespace lensplane {
-namespace {
-
-/// Has a mass bent a stretch?
-enum class Bent {
-  NotYet,
-  JustNow,  // by the plane at its start; the mass's own foot point may still lie ahead
-  Before,
-};
-
-// The formulas of the header over 2 m b, without cancellation.
-
-template <class Number>
-Number shift_before(const Number& z, const Number& z_camera, const Number& b2) {
-  const Number r = sqrt(z * z + b2);
-  const Number r_camera = sqrt(z_camera * z_camera + b2);
-  const Number product = z * z_camera;
-  const Number sum = value_of(product) < 0.0 ? (z * z + z_camera * z_camera + b2) / (r * r_camera - product)
-                                             : (r * r_camera + product) / b2;
-  return (sum - 1.0) / r_camera;
-}
-
-template <class Number>
-Number shift_after(const Number& z, const Number& b2) {
-  const Number r = sqrt(z * z + b2);
-  return value_of(z) < 0.0 ? (r - z) / b2 : 1.0 / (r + z);
-}
-
-/// The shift by one mass. One that the light, having turned back, comes towards again counts as if beside it.
-template <class Number>
-Vector<Number> shift_by(const Deflector& deflector, Bent bent, const RaySegment<Number>& stretch,
-                        const Number& way) {
-  const Vector<Number> mass = constant<Number>(deflector.position);
-  const Vector<Number> to_mass = mass - stretch.start;
-  const Number along = to_mass.dot(stretch.direction);
-  const Vector<Number> across = to_mass - stretch.direction * along;
-  const Number b2 = across.dot(across);
-  if (value_of(b2) == 0.0) return constant<Number>(Vec3(0));
-  const Number beyond = way - along;
-  const Number z = select(bent == Bent::Before && value_of(beyond) < 0.0, Number(0.0), beyond);
-  const Number share =
-      bent == Bent::NotYet ? shift_before(z, mass.dot(stretch.direction), b2) : shift_after(z, b2);
-  return across * (2.0 * deflector.m * share);
-}
-
-}  // namespace
-
 template <class Number>
 Vector<Number> finite_shift(const Deflectors& deflectors, const RaySegment<Number>& stretch,
                             const Number& way) {
   Vector<Number> shift = constant<Number>(Vec3(0));
   for (std::size_t k = 0; k < deflectors.outward; ++k) {
-    const int plane = static_cast<int>(k);
-    const Bent bent = plane >= stretch.bends       ? Bent::NotYet
-                      : plane == stretch.bends - 1 ? Bent::JustNow
-                                                   : Bent::Before;
+    const Bent bent = bent_by_plane(static_cast<int>(k), stretch.bends);
     for (const Deflector& deflector : deflectors.planes[k].deflectors) {
-      shift += shift_by(deflector, bent, stretch, way);
+      shift += shift_by_mass(deflector, bent, stretch.start, stretch.direction, way);
     }
   }
   return shift;

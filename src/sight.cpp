@@ -8,6 +8,7 @@
 
 #include "src/bodies.h"
 #include "src/constants.h"
+#include "src/finite_shift_batch.h"
 #include "src/sphere_reach.h"
 
 namespace lensplane {
@@ -173,13 +174,7 @@ void see_sphere(const Search& search, const Sphere& sphere, LineBatch<Number>& r
     if (!any_of(near)) return;
   }
   VectorLane<Number> start = rays.start, direction = rays.direction;
-  for (int i = 0; finite && i < kBatchSize; ++i) {
-    if (near[i] == 0.0) continue;
-    const RaySegment<Number> stretch{start.get(i), direction.get(i), Number(search.ends.at[i]), search.bends};
-    const RaySegment<Number> near = shifted_to_ball(*finite, stretch, sphere);
-    start.set(i, near.start);
-    direction.set(i, near.direction);
-  }
+  if (finite) shift_to_ball(*finite, sphere, search.ends, search.bends, start, direction);
   enter_sphere(sphere, start, direction, search.ends, entry);
   const SurfaceBatch& surface = batch.surfaces[search.body];
   for (int i = 0; i < kBatchSize; ++i) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -43,6 +44,16 @@ struct FrameReport {
   PhaseCost& operator[](Phase phase) { return phases[static_cast<std::size_t>(phase)]; }
   const PhaseCost& operator[](Phase phase) const { return phases[static_cast<std::size_t>(phase)]; }
 };
+
+/// Adds what a part of the frame took. Parts run side by side: the seconds of the phases may be more than the
+/// frame's.
+inline void add_costs(const FrameReport& part, FrameReport& sum) {
+  sum.rays += part.rays;
+  for (std::size_t i = 0; i < sum.phases.size(); ++i) {
+    sum.phases[i].seconds += part.phases[i].seconds;
+    sum.phases[i].bytes += part.phases[i].bytes;
+  }
+}
 
 /// Runs `work` and adds the time that it takes to `seconds`.
 template <class Work>

@@ -11,6 +11,7 @@
 #include "pipeline/sequence/output_paths.h"
 #include "pipeline/sequence/shot_glow.h"
 #include "pipeline/sequence/shutter.h"
+#include "pipeline/sequence/side_by_side.h"
 #include "pipeline/shot/shot_scene.h"
 
 namespace lensplane {
@@ -102,8 +103,12 @@ void make_picture(const Shot& shot, const ColourConfig& colours, ShotAssets& ass
   if (const auto glow = glow_at(shot, frame)) {
     picture = timed(report[Phase::Composite].seconds, [&] { return with_glow(picture, *glow); });
   }
-  write_picture(shot, frame, setup, picture, report);
-  if (shot.output.review) make_review(shot, colours, frame, setup, picture, looks, report);
+  FrameReport of_review;
+  side_by_side([&] { write_picture(shot, frame, setup, picture, report); },
+               [&] {
+                 if (shot.output.review) make_review(shot, colours, frame, setup, picture, looks, of_review);
+               });
+  add_costs(of_review, report);
 }
 
 std::vector<Amplification> kept_amplifications(const Shot& shot, int frame) {

@@ -4,6 +4,7 @@
 
 #include "pipeline/sequence/make_maps.h"
 #include "pipeline/sequence/make_picture.h"
+#include "pipeline/sequence/side_by_side.h"
 
 namespace lensplane {
 
@@ -15,8 +16,20 @@ FrameReport render_frame(const Shot& shot, const ColourConfig& colours, ShotAsse
     const FrameSetup setup = set_up_frame(shot, colours, assets.textures, frame, tasks);
     const bool maps_done = setup.maps.empty() && setup.data.empty();
     report.already_done = maps_done && !setup.picture;
-    if (!maps_done) make_maps(shot, frame, setup, report);
-    if (setup.picture) make_picture(shot, colours, assets, frame, tasks, setup, report);
+    FrameReport of_maps;
+    const auto maps = [&] {
+      if (!maps_done) make_maps(shot, frame, setup, of_maps);
+    };
+    const auto picture = [&] {
+      if (setup.picture) make_picture(shot, colours, assets, frame, tasks, setup, report);
+    };
+    if (tasks.from_maps) {
+      maps();
+      picture();
+    } else {
+      side_by_side(maps, picture);
+    }
+    add_costs(of_maps, report);
     if (tasks.picture && !setup.picture) report.amplifications = kept_amplifications(shot, frame);
   });
   return report;
