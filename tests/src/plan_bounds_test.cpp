@@ -175,16 +175,20 @@ void hold_to_its_word(const Scene& scene, double tolerance_px, RandomScenes& ran
   }
 }
 
-TEST(PlanBounds, WhatIsLeftOutMovesNothingByMore) {
-  RandomScenes scenes(7);
+Tally hold_scenes_to_their_word(unsigned seed, int count, Scene (RandomScenes::*next)()) {
+  RandomScenes scenes(seed);
   Tally tally;
-  for (int n = 0; n < 3000; ++n) {
+  for (int n = 0; n < count && !testing::Test::HasFatalFailure(); ++n) {
     SCOPED_TRACE(n);
-    const Scene scene = scenes.next();
+    const Scene scene = (scenes.*next)();
     const double tolerance_px = scenes.spread(1e-3, 1);
     hold_to_its_word(scene, tolerance_px, scenes, tally);
-    ASSERT_FALSE(HasFatalFailure());
   }
+  return tally;
+}
+
+TEST(PlanBounds, WhatIsLeftOutMovesNothingByMore) {
+  const Tally tally = hold_scenes_to_their_word(7, 3000, &RandomScenes::next);
   // Not by doing everything always: each simplification is used, and some come near what they may leave out.
   for (const int count : tally.by_level) EXPECT_GT(count, 50);
   EXPECT_GT(tally.culled, 1000);
@@ -193,15 +197,7 @@ TEST(PlanBounds, WhatIsLeftOutMovesNothingByMore) {
 }
 
 TEST(PlanBounds, WhatIsLeftOutMovesNothingByMoreOnBalls) {
-  RandomScenes scenes(8);
-  Tally tally;
-  for (int n = 0; n < 2000; ++n) {
-    SCOPED_TRACE(n);
-    const Scene scene = scenes.next_with_balls();
-    const double tolerance_px = scenes.spread(1e-3, 1);
-    hold_to_its_word(scene, tolerance_px, scenes, tally);
-    ASSERT_FALSE(HasFatalFailure());
-  }
+  const Tally tally = hold_scenes_to_their_word(8, 2000, &RandomScenes::next_with_balls);
   for (const int count : tally.by_level) EXPECT_GT(count, 50);
   EXPECT_GT(tally.on_balls, 10000);
   EXPECT_GT(tally.culled, 300);
@@ -210,15 +206,7 @@ TEST(PlanBounds, WhatIsLeftOutMovesNothingByMoreOnBalls) {
 }
 
 TEST(PlanBounds, WhatIsLeftOutMovesNothingByMoreOnCardsAndRings) {
-  RandomScenes scenes(8);
-  Tally tally;
-  for (int n = 0; n < 1500; ++n) {
-    SCOPED_TRACE(n);
-    const Scene scene = scenes.next_with_body();
-    const double tolerance_px = scenes.spread(1e-3, 1);
-    hold_to_its_word(scene, tolerance_px, scenes, tally);
-    ASSERT_FALSE(HasFatalFailure());
-  }
+  const Tally tally = hold_scenes_to_their_word(8, 1500, &RandomScenes::next_with_body);
   EXPECT_GT(tally.without_finite, 100);
   EXPECT_GT(tally.nearest, 0.01);
 }
