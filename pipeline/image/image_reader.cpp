@@ -33,13 +33,11 @@ EncodedImage read_image(const std::filesystem::path& path) {
     refuse(path, fmt::format("{} x {} pixels; allowed: up to {} million", spec.width, spec.height,
                              kMaxImagePixels >> 20));
   }
-  EncodedImage image{windows_of(spec), layout.type, false, true, {}};
   std::vector<std::byte> file(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels) *
                               size_of(layout.type));
   if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(layout.type), file.data()))
     refuse(path, input->geterror());
-  pack(layout, file, image);
-  return image;
+  return packed(layout, windows_of(spec), file);
 }
 
 std::string read_interop_id(const std::filesystem::path& path) {

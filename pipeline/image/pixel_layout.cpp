@@ -41,15 +41,30 @@ std::optional<std::array<int, 3>> colour_channels(const OIIO::ImageSpec& spec, s
 
 /// Channels as the file has them to RGBA; `Sample` is as large as a sample, `opaque` is full alpha.
 template <class Sample>
-void pack(const PixelLayout& layout, const std::vector<std::byte>& file, Sample opaque, EncodedImage& image) {
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  image.samples.resize(pixels * 4 * sizeof(Sample));
+std::vector<std::byte> rgba(const PixelLayout& layout, const std::vector<std::byte>& file, Sample opaque) {
+  const std::size_t pixels = file.size() / (static_cast<std::size_t>(layout.channels) * sizeof(Sample));
+  std::vector<std::byte> samples(pixels * 4 * sizeof(Sample));
   const auto* in = reinterpret_cast<const Sample*>(file.data());
-  auto* out = reinterpret_cast<Sample*>(image.samples.data());
+  auto* out = reinterpret_cast<Sample*>(samples.data());
   for (std::size_t i = 0; i < pixels; ++i, in += layout.channels, out += 4) {
     for (std::size_t c = 0; c < 3; ++c) out[c] = in[layout.colours[c]];
-    out[3] = image.has_alpha ? in[layout.alpha] : opaque;
+    out[3] = layout.alpha >= 0 ? in[layout.alpha] : opaque;
   }
+  return samples;
+}
+
+std::vector<std::byte> rgba(const PixelLayout& layout, const std::vector<std::byte>& file) {
+  switch (layout.type) {
+    case SampleType::UInt8:
+      return rgba<std::uint8_t>(layout, file, 0xff);
+    case SampleType::UInt16:
+      return rgba<std::uint16_t>(layout, file, 0xffff);
+    case SampleType::Half:
+      return rgba<std::uint16_t>(layout, file, kHalfOne);
+    case SampleType::Float:
+      break;
+  }
+  return rgba<std::uint32_t>(layout, file, std::bit_cast<std::uint32_t>(1.0F));
 }
 
 }  // namespace
@@ -80,20 +95,9 @@ PixelLayout pixel_layout(const std::filesystem::path& path, const OIIO::ImageSpe
           spec.get_int_attribute("oiio:UnassociatedAlpha") == 0};
 }
 
-void pack(const PixelLayout& layout, const std::vector<std::byte>& file, EncodedImage& image) {
-  image.type = layout.type;
-  image.has_alpha = layout.alpha >= 0;
-  image.premultiplied = layout.premultiplied;
-  switch (image.type) {
-    case SampleType::UInt8:
-      return pack<std::uint8_t>(layout, file, 0xff, image);
-    case SampleType::UInt16:
-      return pack<std::uint16_t>(layout, file, 0xffff, image);
-    case SampleType::Half:
-      return pack<std::uint16_t>(layout, file, kHalfOne, image);
-    case SampleType::Float:
-      return pack<std::uint32_t>(layout, file, std::bit_cast<std::uint32_t>(1.0F), image);
-  }
+EncodedImage packed(const PixelLayout& layout, const PixelWindows& windows,
+                    const std::vector<std::byte>& file) {
+  return {windows, layout.type, layout.alpha >= 0, layout.premultiplied, rgba(layout, file)};
 }
 
 PixelWindows windows_of(const OIIO::ImageSpec& spec) {

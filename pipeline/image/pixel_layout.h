@@ -38,8 +38,9 @@ PixelLayout pixel_layout(const std::filesystem::path& path, const OIIO::ImageSpe
 /// OpenImageIO's name of the layout's type.
 OIIO::TypeDesc oiio_type(SampleType type);
 
-/// Fills `image.samples`, and what else the layout says, from samples as the file has them.
-void pack(const PixelLayout& layout, const std::vector<std::byte>& file, EncodedImage& image);
+/// The image of samples as the file has them.
+EncodedImage packed(const PixelLayout& layout, const PixelWindows& windows,
+                    const std::vector<std::byte>& file);
 
 /// Where the file's pixels lie.
 PixelWindows windows_of(const OIIO::ImageSpec& spec);

@@ -80,16 +80,14 @@ EncodedImage TiledImage::tile(int level, int column, int row) const {
   const int left = column * tile_width_, right = std::min(left + tile_width_, size.width);
   const int top = row * tile_height_, bottom = std::min(top + tile_height_, size.height);
   const int width = right - left, height = bottom - top;
-  EncodedImage image{{width, height, 0, 0, width, height}, layout_.type, false, true, {}};
-  std::vector<std::byte> file(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+  std::vector<std::byte> file(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                               static_cast<std::size_t>(layout_.channels) * size_of(layout_.type));
   const OIIO::ustring name(path_);
   if (!cache_->get_pixels(name, 0, level, left, right, top, bottom, 0, 1, oiio_type(layout_.type),
                           file.data())) {
     refuse(path_, cache_->geterror());
   }
-  pack(layout_, file, image);
-  return image;
+  return packed(layout_, {width, height, 0, 0, width, height}, file);
 }
 
 }  // namespace lensplane
