@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "pipeline/composite/gaussian_window.h"
 #include "pipeline/composite/surface_kernel.h"
@@ -27,33 +28,53 @@ Span span_around(double middle, double reach) {
   return {static_cast<int>(std::ceil(middle - reach)), static_cast<int>(std::floor(middle + reach))};
 }
 
+/// The eight texels side by side that a kernel may reach around `middle`, and what they weigh.
+struct TapRun {
+  int first;
+  Taps taps;
+
+  LENSPLANE_ALWAYS_INLINE TapRun(const SurfaceKernel& kernel, double middle) {
+    const double before = std::floor(middle);
+    first = static_cast<int>(before) + SurfaceKernel::kFirstTap;
+    taps = kernel.taps(static_cast<float>(middle - before));
+  }
+};
+
 /// What columns (or rows) weigh together along the longer axis.
 class Marginal {
  public:
-  Marginal(double middle, double variance, double smoothness) {
+  LENSPLANE_ALWAYS_INLINE Marginal(double middle, double variance, double smoothness) {
     if (variance <= kLargestCloseSigma * kLargestCloseSigma) {
       const SurfaceKernel kernel(variance, smoothness);
+      const TapRun run(kernel, middle);
       span_ = span_around(middle, kernel.reach());
-      for (int i = span_.first; i <= span_.last; ++i) at(i) = kernel(static_cast<float>(i - middle));
+      for (int i = span_.first; i <= span_.last; ++i) {
+        weights_[static_cast<std::size_t>(i - span_.first)] = run.taps.weight[i - run.first];
+      }
+      std::fill_n(&weights_[static_cast<std::size_t>(span_.last + 1 - span_.first)], 8, 0.0F);
       return;
     }
     // One dimension's share of the window loses a little less variance than two do.
     const double widened = (variance + kTriangleVariance) / 0.94;
     span_ = span_around(middle, std::sqrt(static_cast<double>(kCut) * widened));
-    for (int i = span_.first; i <= span_.last; ++i) {
-      const double q = (i - middle) * (i - middle) / widened;
-      at(i) = std::max(0.0F, gaussian(static_cast<float>(q)) - kEdgeWeight);
+    const auto per_variance = static_cast<float>(1 / widened);
+    const auto offset = static_cast<float>(span_.first - middle);
+    const int count = span_.last - span_.first + 1;
+    for (int n = 0; n < count; ++n) {
+      const float distance = offset + static_cast<float>(n);
+      const float q = distance * distance * per_variance;
+      weights_[static_cast<std::size_t>(n)] = std::max(0.0F, gaussian(q < kCut ? q : kCut) - kEdgeWeight);
     }
+    std::fill_n(&weights_[static_cast<std::size_t>(count)], 8, 0.0F);
   }
 
   Span span() const { return span_; }
-  /// The weights from number `i` on.
+  /// The weights from number `i` on, and eight more of nothing.
   const float* from(int i) const { return &weights_[static_cast<std::size_t>(i - span_.first)]; }
 
- private:
-  float& at(int i) { return weights_[static_cast<std::size_t>(i - span_.first)]; }
+  static constexpr int kMost = static_cast<int>(2 * 3.3 * kLongestCloseSigma) + 16;
 
-  static constexpr int kMost = static_cast<int>(2 * 3.3 * kLongestCloseSigma) + 8;
+ private:
   Span span_{};
   std::array<float, kMost> weights_;
 };
@@ -80,22 +101,20 @@ Conditional conditional(const AxisFilter& along, const AxisFilter& across, doubl
   return {slant, SurfaceKernel(std::max(0.0, across.variance - slant * between), across.smoothness)};
 }
 
-/// Adds texels side by side, number n by weight(n). No ellipse has so many that single precision lost them.
-template <class Weight>
-LENSPLANE_ALWAYS_INLINE inline void add_texels(const Rgba* texels, int count, Weight weight, RowSum& sum) {
-  for (int n = 0; n < count; ++n) sum.add(weight(n), texels[n]);
+int by_eights(int count) {
+  return (count + 7) / 8 * 8;
 }
 
-/// The ellipse is longer along rows: columns are weighed, and within each its rows.
-LENSPLANE_KERNEL Rgba mean_along_rows(Texels& texels, double x, double y, const Marginal& columns,
-                                      const Conditional& within) {
+/// Columns are weighed, and within each its rows.
+LENSPLANE_ALWAYS_INLINE inline Rgba mean_along_rows(Texels& texels, double x, double y,
+                                                    const Marginal& columns, const Conditional& within) {
   const Span all = columns.span();
   const SurfaceKernel& kernel = within.kernel;
   const double reach = kernel.reach();
   const double sway = std::abs(within.slant) * std::max(x - all.first, all.last - x);
   const Span rows = span_around(y, reach + sway);
   const auto slant = static_cast<float>(within.slant);
-  RowSum sum;
+  EightsSum sum;
   for (int row = rows.first; row <= rows.last; ++row) {
     Span in_row = all;
     if (sway > 1) {
@@ -104,57 +123,43 @@ LENSPLANE_KERNEL Rgba mean_along_rows(Texels& texels, double x, double y, const 
       in_row.last = static_cast<int>(std::floor(std::min(static_cast<double>(all.last), middle + half)));
       if (in_row.last < in_row.first) continue;
     }
-    const int count = in_row.last - in_row.first + 1;
-    const Rgba* texel = texels.row(0, in_row.first, row, count);
-    const float* column = columns.from(in_row.first);
+    const int count = by_eights(in_row.last - in_row.first + 1);
     const auto away = static_cast<float>(row - y - within.slant * (in_row.first - x));
-    if (kernel.is_triangle()) {
-      const auto weight = [=](int n) {
-        return column[n] * kernel.triangle(away - slant * static_cast<float>(n));
-      };
-      add_texels(texel, count, weight, sum);
-    } else {
-      const auto weight = [=](int n) { return column[n] * kernel(away - slant * static_cast<float>(n)); };
-      add_texels(texel, count, weight, sum);
-    }
+    alignas(32) float weights[Marginal::kMost];
+    std::copy_n(columns.from(in_row.first), count, weights);
+    kernel.weigh(away, -slant, count, weights);
+    const Rgba* texel = texels.row(0, in_row.first, row, count);
+    for (int n = 0; n < count; n += 8) sum.add(weights + n, texel + n);
   }
-  return sum.mean();
+  return sum.sum().mean();
 }
 
-/// The ellipse is longer along columns: rows are weighed, and within each its columns.
-LENSPLANE_KERNEL Rgba mean_along_columns(Texels& texels, double x, double y, const Marginal& rows,
-                                         const Conditional& within) {
-  const SurfaceKernel& kernel = within.kernel;
-  const double reach = kernel.reach();
-  RowSum sum;
+/// Rows are weighed, and within each its columns.
+LENSPLANE_ALWAYS_INLINE inline Rgba mean_along_columns(Texels& texels, double x, double y,
+                                                       const Marginal& rows, const Conditional& within) {
+  EightsSum sum;
   for (int row = rows.span().first; row <= rows.span().last; ++row) {
-    const double middle = x + within.slant * (row - y);
-    const Span columns = span_around(middle, reach);
-    const int count = columns.last - columns.first + 1;
-    const Rgba* texel = texels.row(0, columns.first, row, count);
-    const auto away = static_cast<float>(columns.first - middle);
+    const TapRun run(within.kernel, x + within.slant * (row - y));
     const float by = *rows.from(row);
-    if (kernel.is_triangle()) {
-      add_texels(
-          texel, count, [=](int n) { return by * kernel.triangle(away + static_cast<float>(n)); }, sum);
-    } else {
-      add_texels(
-          texel, count, [=](int n) { return by * kernel(away + static_cast<float>(n)); }, sum);
-    }
+    alignas(32) float weights[Taps::kCount];
+    for (int n = 0; n < Taps::kCount; ++n) weights[n] = by * run.taps.weight[n];
+    sum.add(weights, texels.row(0, run.first, row, Taps::kCount));
   }
-  return sum.mean();
+  return sum.sum().mean();
 }
 
 }  // namespace
 
-Rgba close_mean(Texels& texels, double x, double y, const Covariance& pixel, Smoothness smoothness) {
+LENSPLANE_KERNEL Rgba close_mean(Texels& texels, double x, double y, const Covariance& pixel,
+                                 Smoothness smoothness) {
   const AxisFilter columns{pixel.xx, smoothness.x}, rows{pixel.yy, smoothness.y};
-  if (pixel.xx >= pixel.yy) {
-    return mean_along_rows(texels, x, y, Marginal(x, columns.variance, columns.smoothness),
-                           conditional(columns, rows, pixel.xy));
+  const double across = pixel.xx - pixel.xy * pixel.xy / (pixel.yy + rows.of_surface());
+  if (across <= TapTable::kLargestSigma * TapTable::kLargestSigma) {
+    return mean_along_columns(texels, x, y, Marginal(y, rows.variance, rows.smoothness),
+                              conditional(rows, columns, pixel.xy));
   }
-  return mean_along_columns(texels, x, y, Marginal(y, rows.variance, rows.smoothness),
-                            conditional(rows, columns, pixel.xy));
+  return mean_along_rows(texels, x, y, Marginal(x, columns.variance, columns.smoothness),
+                         conditional(columns, rows, pixel.xy));
 }
 
 }  // namespace lensplane

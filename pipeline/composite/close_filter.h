@@ -5,9 +5,10 @@
 //
 // Texels are joined by a bilinear surface (weights: the triangle), or by a cubic B-spline where the picture
 // is magnified so much that the bilinear surface's creases would show; anything between the two is allowed,
-// for each axis. The ellipse is taken apart along the axis, columns or rows, in which it is the longer: what
-// all texels of one column weigh together, and how that is spread within the column, about a middle that
-// moves from column to column. Both are exact up to second moments, and so is the whole.
+// for each axis. The ellipse is taken apart by rows: what all texels of one row weigh together, and how that
+// is spread within the row, about a middle that moves from row to row. Both are exact up to second moments,
+// and so is the whole. Where an ellipse is too long within a row for a kernel it is taken apart by columns
+// instead.
 
 #pragma once
 

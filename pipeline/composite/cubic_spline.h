@@ -5,20 +5,18 @@
 
 #pragma once
 
-#include <cmath>
-
 namespace lensplane {
 
 /// The second moment of cubic_spline.
 inline constexpr double kCubicSplineVariance = 1.0 / 3.0;
 
 /// The weight at distance `x`; 0 from 2 on. Its integral is 1, as is its sum over any x + integers.
-inline double cubic_spline(double x) {
-  const double distance = std::abs(x);
-  if (distance >= 2) return 0;
-  const double rest = 2 - distance;
-  if (distance >= 1) return rest * rest * rest / 6;
-  return 2.0 / 3.0 - distance * distance * (1 - distance / 2);
+template <class Number>
+constexpr Number cubic_spline(Number x) {
+  const Number distance = x < 0 ? -x : x;
+  const Number outer = distance < 2 ? 2 - distance : Number(0);
+  const Number inner = distance < 1 ? 1 - distance : Number(0);
+  return (outer * outer * outer - 4 * inner * inner * inner) / 6;
 }
 
 }  // namespace lensplane

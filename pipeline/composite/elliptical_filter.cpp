@@ -13,19 +13,18 @@
 namespace lensplane {
 namespace {
 
-/// Adds `count` texels of a row; the first lies `offset` from the row's centre, and q = per_variance d^2 +
-/// base.
-LENSPLANE_ALWAYS_INLINE inline void add_row(const Rgba* texels, int count, float offset, float per_variance,
+/// Adds the texels of a row, by eights; the first lies `offset` from the row's centre, and q = per_variance
+/// d^2 + base. Those beyond the window weigh nothing.
+LENSPLANE_ALWAYS_INLINE inline void add_row(const Rgba* texels, int eights, float offset, float per_variance,
                                             float base, WeightedSum& total) {
-  RowSum sum;
-  for (int first = 0; first < count; first += 4) {
-    const Float4 d = (offset + static_cast<float>(first)) + Float4{0, 1, 2, 3};
-    const Float4 q = per_variance * d * d + base;
-    const Float4 weights = gaussian(q < kCut ? q : Float4{} + kCut) - kEdgeWeight;
-    const int left = std::min(4, count - first);
-    for (int i = 0; i < left; ++i) sum.add(weights[i], texels[first + i]);
+  EightsSum sum;
+  for (int n = 0; n < 8 * eights; n += 8) {
+    const Float8 d = (offset + static_cast<float>(n)) + Float8{0, 1, 2, 3, 4, 5, 6, 7};
+    const Float8 q = per_variance * d * d + base;
+    const Float8 weights = gaussian(q < kCut ? q : Float8{} + kCut) - kEdgeWeight;
+    sum.add(weights > 0 ? weights : Float8{}, texels + n);  // rounding makes nothing less than nothing
   }
-  total.add(1, sum);
+  total.add(sum.sum());
 }
 
 }  // namespace
@@ -47,7 +46,8 @@ LENSPLANE_KERNEL Rgba elliptical_mean(Texels& texels, int level, double x, doubl
     const int end = static_cast<int>(std::floor(centre + half)) + 1;
     const int first = static_cast<int>(std::ceil(centre - half));
     if (first >= end) continue;
-    add_row(texels.row(level, first, row, end - first), end - first, static_cast<float>(first - centre),
+    const int eights = (end - first + 7) / 8;
+    add_row(texels.row(level, first, row, 8 * eights), eights, static_cast<float>(first - centre),
             static_cast<float>(1 / variance), static_cast<float>(base), total);
   }
   return total.mean();

@@ -28,15 +28,22 @@ Covariance covariance_from(const Axes& axes) {
   return {axes.minor + more * axes.x * axes.x, more * axes.x * axes.y, axes.minor + more * axes.y * axes.y};
 }
 
-Axes axes_of(const Covariance& covariance) {
+AxisVariances variances_of(const Covariance& covariance) {
   const double mean = (covariance.xx + covariance.yy) / 2;
   const double half = (covariance.xx - covariance.yy) / 2;
-  const double radius = std::sqrt(half * half + covariance.xy * covariance.xy);
-  Axes axes{mean + radius, 0, 1, 0};
+  const double major = mean + std::sqrt(half * half + covariance.xy * covariance.xy);
+  if (!(major > 0)) return {};
   // The product of the two is the determinant: no cancellation for long ellipses.
   const double determinant = covariance.xx * covariance.yy - covariance.xy * covariance.xy;
-  if (axes.major > 0) axes.minor = std::clamp(determinant / axes.major, 0.0, axes.major);
-  if (radius <= 1e-12 * mean) return axes;
+  return {major, std::clamp(determinant / major, 0.0, major)};
+}
+
+Axes axes_of(const Covariance& covariance) {
+  Axes axes{variances_of(covariance), 1, 0};
+  const double mean = (covariance.xx + covariance.yy) / 2;
+  const double half = (covariance.xx - covariance.yy) / 2;
+  const double radius = axes.major - mean;
+  if (!(radius > 1e-12 * mean)) return axes;
   // Half the angle of (half, xy), from the larger of two expressions for it.
   const double x = half >= 0 ? half + radius : std::abs(covariance.xy);
   const double y = half >= 0 ? covariance.xy : std::copysign(radius - half, covariance.xy);

@@ -39,10 +39,16 @@ struct Covariance {
 /// The pixel filter in texels of a picture of `width` x `height`, `scale` left out of account.
 Covariance covariance_in_texels(const Footprint& footprint, int width, int height);
 
-/// The axes of an ellipse: variances along them, and the direction of the longer one.
-struct Axes {
+/// The variances along the axes of an ellipse.
+struct AxisVariances {
   double major = 0;
   double minor = 0;
+};
+
+AxisVariances variances_of(const Covariance& covariance);
+
+/// The same with the direction of the longer one.
+struct Axes : AxisVariances {
   double x = 1;  // unit vector
   double y = 0;
 };

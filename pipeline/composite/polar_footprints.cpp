@@ -19,8 +19,9 @@ constexpr double kMostLatitude = 0.7;
 
 bool bends_around_pole(TextureCoordinates st, const Footprint& footprint) {
   const double sigma = kPixelSigma * footprint.scale;
-  const double longitude = 2 * kPi * sigma * std::hypot(footprint.ds_dx, footprint.ds_dy);
-  const double latitude = kPi * sigma * std::hypot(footprint.dt_dx, footprint.dt_dy);
+  const auto length = [](double x, double y) { return std::sqrt(x * x + y * y); };
+  const double longitude = 2 * kPi * sigma * length(footprint.ds_dx, footprint.ds_dy);
+  const double latitude = kPi * sigma * length(footprint.dt_dx, footprint.dt_dy);
   const double colatitude = kPi * std::min(st.t, 1 - st.t);
   return longitude > kMostLongitude && latitude < kMostLatitude && colatitude < kPi / 4 && colatitude >= 0 &&
          longitude * colatitude < kMostLatitude;

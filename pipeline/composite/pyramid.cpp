@@ -82,10 +82,11 @@ Picture narrowed(const Picture& fine, Wrap wrap) {
       const Taps& taps = columns.taps[static_cast<std::size_t>(column)];
       const auto count = static_cast<int>(taps.weights.size());
       const bool inside = taps.first >= fine.x && taps.first + count <= fine.x + fine.width;
+      const Rgba* stored = inside ? &fine.at(taps.first - fine.x, row) : nullptr;
       Rgba sum{0, 0, 0, 0};
       for (int i = 0; i < count; ++i) {
         add(sum, taps.weights[static_cast<std::size_t>(i)],
-            inside ? fine.at(taps.first + i - fine.x, row) : texel(fine, wrap, taps.first + i, row + fine.y));
+            stored ? stored[i] : texel(fine, wrap, taps.first + i, row + fine.y));
       }
       coarse.at(column, row) = sum;
     }
@@ -118,22 +119,26 @@ double coarser_variance(double variance, int fine, int coarse) {
   return fine == coarse ? variance : variance / (ratio * ratio) + kCubicSplineVariance;
 }
 
+void add_level(Pyramid& pyramid, Picture picture, double variance_x, double variance_y) {
+  pyramid.pictures.push_back(std::move(picture));
+  const Picture& kept = pyramid.pictures.back();
+  pyramid.levels.push_back({kept, variance_x, variance_y, kept.pixels.data()});
+}
+
 }  // namespace
 
 Pyramid make_pyramid(Picture picture, Wrap wrap) {
   Pyramid pyramid;
-  pyramid.levels.push_back({picture, 0, 0});
-  pyramid.pictures.push_back(std::move(picture));
+  add_level(pyramid, std::move(picture), 0, 0);
   for (;;) {
     const Picture& fine = pyramid.pictures.back();
     if (fine.display_width <= 1 && fine.display_height <= 1) return pyramid;
     Picture coarse = fine.display_width > 1 ? narrowed(fine, wrap) : fine;
     if (coarse.display_height > 1) coarse = lowered(coarse, wrap);
     const TexelLevel& last = pyramid.levels.back();
-    pyramid.levels.push_back({coarse,
-                              coarser_variance(last.variance_x, fine.display_width, coarse.display_width),
-                              coarser_variance(last.variance_y, fine.display_height, coarse.display_height)});
-    pyramid.pictures.push_back(std::move(coarse));
+    const double variance_x = coarser_variance(last.variance_x, fine.display_width, coarse.display_width);
+    const double variance_y = coarser_variance(last.variance_y, fine.display_height, coarse.display_height);
+    add_level(pyramid, std::move(coarse), variance_x, variance_y);
   }
 }
 

@@ -17,8 +17,12 @@
 namespace lensplane {
 
 struct Pyramid {
-  std::vector<Picture> pictures;  // the picture itself first
-  std::vector<TexelLevel> levels;
+  std::vector<Picture> pictures;   // the picture itself first
+  std::vector<TexelLevel> levels;  // of the pictures' texels
+
+  Pyramid() = default;
+  Pyramid(Pyramid&&) = default;  // texels stay where they are, unlike in a copy
+  Pyramid& operator=(Pyramid&&) = default;
 };
 
 /// Runs in parallel. The picture's display window must not be empty.

@@ -16,27 +16,33 @@ double ramp_integral(double x, double sigma) {
   return sigma * (z * std::erfc(-z / std::numbers::sqrt2) / 2 + density);
 }
 
-/// The triangle is the second difference of ramps.
+/// The triangle is the second difference of ramps; it ends at its reach.
 double weight_at(double distance, double sigma) {
-  return ramp_integral(distance - 1, sigma) - 2 * ramp_integral(distance, sigma) +
-         ramp_integral(distance + 1, sigma);
+  if (distance > 1 + TapTable::kReach * sigma + 1.0 / TapTable::kPlaces) return 0;
+  return std::max(0.0, ramp_integral(distance - 1, sigma) - 2 * ramp_integral(distance, sigma) +
+                           ramp_integral(distance + 1, sigma));
 }
 
 }  // namespace
 
-const TriangleTable& TriangleTable::get() {
-  static const TriangleTable table;
+const TapTable& TapTable::get() {
+  static const TapTable table;
   return table;
 }
 
-TriangleTable::TriangleTable() {
-  for (int step = 0; step <= kSigmaSteps; ++step) {
+TapTable::TapTable() {
+  for (std::size_t step = 0; step < rows_.size(); ++step) {
     const double sigma = static_cast<double>(step) / kSigmaSteps;
-    for (int i = 0; i < kLength; ++i) {
-      const double distance = static_cast<double>(i) / kPerTexel;
-      const bool within = distance <= 1 + kReach * sigma + 1.0 / kPerTexel;
-      rows_[static_cast<std::size_t>(step)][static_cast<std::size_t>(i)] =
-          within ? static_cast<float>(std::max(0.0, weight_at(distance, sigma))) : 0.0F;
+    std::array<float, 4 * kPlaces + 1> by_distance;
+    for (std::size_t i = 0; i < by_distance.size(); ++i) {
+      by_distance[i] = static_cast<float>(weight_at(static_cast<double>(i) / kPlaces, sigma));
+    }
+    for (int place = 0; place <= kPlaces; ++place) {
+      for (int n = 0; n < Taps::kCount; ++n) {
+        const int distance = std::abs((n + SurfaceKernel::kFirstTap) * kPlaces - place);
+        rows_[step][static_cast<std::size_t>(place)].weight[n] =
+            by_distance[static_cast<std::size_t>(distance)];
+      }
     }
   }
 }

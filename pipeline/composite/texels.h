@@ -12,6 +12,7 @@
 
 #include "pipeline/composite/texel_place.h"
 #include "pipeline/image/picture.h"
+#include "src/inlining.h"
 
 namespace lensplane {
 
@@ -21,6 +22,7 @@ struct TexelLevel {
   PixelWindows window;
   double variance_x = 0;  // in texels of this level, squared
   double variance_y = 0;
+  const Rgba* texels = nullptr;  // row by row, when all that the window stores is in memory
 };
 
 /// Texels side by side, `count` > 0 of them.
@@ -41,7 +43,17 @@ class Texels {
   Wrap wrap() const { return wrap_; }
 
   /// `count` > 0 texels side by side, the first at any position of a level. Valid until the next call.
-  const Rgba* row(int level, int column, int row, int count) {
+  LENSPLANE_ALWAYS_INLINE const Rgba* row(int level, int column, int row, int count) {
+    const TexelLevel& from = levels_[static_cast<std::size_t>(level)];
+    const PixelWindows& window = from.window;
+    if (from.texels && window.stores(column, row) && window.stores(column + count - 1, row)) {
+      return from.texels + std::ptrdiff_t{row - window.y} * window.width + (column - window.x);
+    }
+    return found(level, column, row, count);
+  }
+
+ private:
+  [[gnu::noinline]] const Rgba* found(int level, int column, int row, int count) {
     const PixelWindows& window = levels_[static_cast<std::size_t>(level)].window;
     if (window.stores(column, row) && window.stores(column + count - 1, row)) {
       const TexelRun run = stored(level, {column, row, count});
@@ -50,7 +62,6 @@ class Texels {
     return gathered(level, column, row, count);
   }
 
- private:
   /// The texel at any position of a level, and what follows it on its right.
   TexelRun run(int level, int column, int row) {
     static constexpr Rgba kClear{0, 0, 0, 0};

@@ -27,6 +27,8 @@ double smooth_step(double from, double to, double x) {
 
 /// How cubic the surface is along an axis along which the unscaled pixel filter has this variance in texels.
 double smoothness(double variance) {
+  constexpr double kNowhere = kPixelSigma / kCubicStarts;
+  if (variance >= kNowhere * kNowhere) return 0;
   const double texels_per_pixel = std::sqrt(variance) / kPixelSigma;
   return 1 - smooth_step(1 / kCubicOnly, 1 / kCubicStarts, texels_per_pixel);
 }
@@ -48,6 +50,14 @@ Covariance limited(const Covariance& c, const PixelWindows& window, Wrap wrap) {
   return scaled(c, limit(c.xx, window.display_width), limit(c.yy, window.display_height));
 }
 
+/// Both axes with `spared` less variance.
+Covariance narrowed(const Covariance& c, double spared) {
+  Axes axes = axes_of(c);
+  axes.major = std::max(0.0, axes.major - spared);
+  axes.minor = std::max(0.0, axes.minor - spared);
+  return covariance_from(axes);
+}
+
 /// What is left for the elliptical filter to do on a level; `total` is to be done on the finest.
 Covariance left_on_level(const std::vector<TexelLevel>& levels, std::size_t level, const Covariance& total) {
   const PixelWindows& whole = levels.front().window;
@@ -56,7 +66,7 @@ Covariance left_on_level(const std::vector<TexelLevel>& levels, std::size_t leve
                            static_cast<double>(coarse.window.display_height) / whole.display_height);
   left.xx -= coarse.variance_x;
   left.yy -= coarse.variance_y;
-  const double lacking = std::max(0.0, kSmallestVariance - axes_of(left).minor);
+  const double lacking = std::max(0.0, kSmallestVariance - variances_of(left).minor);
   left.xx = std::max(left.xx + lacking, kSmallestVariance);
   left.yy = std::max(left.yy + lacking, kSmallestVariance);
   return left;
@@ -88,7 +98,7 @@ Rgba elliptical(Texels& texels, TextureCoordinates st, const Covariance& pixel, 
   const auto& levels = texels.levels();
   const Covariance total{pixel.xx + kTriangleVariance, pixel.xy, pixel.yy + kTriangleVariance};
   // The coarsest level on which the shorter axis is still at least a texel long.
-  const int longest = std::ilogb(std::max(1.0, axes_of(total).minor)) / 2;
+  const int longest = std::ilogb(std::max(1.0, variances_of(total).minor)) / 2;
   auto level = std::min(static_cast<std::size_t>(longest), levels.size() - 1);
   Covariance left = left_on_level(levels, level, total);
   while (texels_in(left) > most_texels && level + 1 < levels.size()) {
@@ -105,16 +115,15 @@ Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint, dou
   const Covariance whole = covariance_in_texels(footprint, window.display_width, window.display_height);
   const double scale = std::clamp(footprint.scale, 0.0, 1e3);
   Covariance pixel = limited(scaled(whole, scale, scale), window, texels.wrap());
-  Axes axes = axes_of(pixel);
-  if (footprint.spared > 0) {
-    axes.major = std::max(0.0, axes.major - footprint.spared);
-    axes.minor = std::max(0.0, axes.minor - footprint.spared);
-    pixel = covariance_from(axes);
-  }
+  if (footprint.spared > 0) pixel = narrowed(pixel, footprint.spared);
   const TexelPosition at = position_on(window, st);
   if (texels.wrap() == Wrap::Black && is_beyond(window, at, pixel)) return {0, 0, 0, 0};
   const double share = std::clamp(2.0 * part, 0.1, 1.0), longest = kLongestCloseSigma * share;
-  if (axes.minor > kLargestCloseSigma * kLargestCloseSigma || axes.major > longest * longest) {
+  const AxisVariances axes = variances_of(pixel);
+  // Parts of a pixel add up to its filter: for them an ellipse does as soon as it is large enough for texels.
+  const double widest =
+      part < 1 ? kSmallestVariance - kTriangleVariance : kLargestCloseSigma * kLargestCloseSigma;
+  if (axes.minor > widest || axes.major > longest * longest) {
     return elliptical(texels, st, pixel, kMostTexels * share * share);
   }
   return close_mean(texels, at.x, at.y, pixel, {smoothness(whole.xx), smoothness(whole.yy)});
@@ -133,9 +142,7 @@ Rgba filtered_texels(Texels& texels, TextureCoordinates st, const Footprint& foo
   if (footprint.scale <= kPolarPartSigma) return seen(texels, st, footprint, 1);  // it is a part already
   WeightedSum sum;
   for_each_polar_part(st, footprint, [&](double weight, const PolarPart& part) {
-    RowSum one;
-    one.add(1, seen(texels, part.st, part.footprint, 1));
-    sum.add(weight, one);
+    sum.add(weight, seen(texels, part.st, part.footprint, 1));
   });
   return sum.mean();
 }

@@ -45,41 +45,71 @@ double convolved(double (*shape)(double), double distance, double sigma) {
 }
 
 bool is_within(double distance, double sigma) {
-  return distance <= 1 + TriangleTable::kReach * sigma;
+  return distance <= 1 + TapTable::kReach * sigma;
 }
 
 TEST(SurfaceKernel, TableHoldsTheTriangleConvolvedWithGaussians) {
-  const TriangleTable& table = TriangleTable::get();
+  const TapTable& table = TapTable::get();
   for (const int step : {0, 1, 13, 64, 128, 200, 256}) {
     const double sigma = step / 256.0;
-    const float* row = table.row(sigma);
-    for (int i = 0; i < TriangleTable::kLength; i += 5) {
-      const double distance = i / 64.0;
-      if (distance > 1 + TriangleTable::kReach * sigma + 1.5 / TriangleTable::kPerTexel) {
-        EXPECT_EQ(row[i], 0) << sigma << " " << distance;
-      } else if (is_within(distance, sigma)) {
-        EXPECT_NEAR(row[i], convolved(triangle_at, distance, sigma), kEntryError) << sigma << " " << distance;
+    for (int place = 0; place <= TapTable::kPlaces; place += 5) {
+      for (int n = 0; n < Taps::kCount; ++n) {
+        const double distance = std::abs(n + SurfaceKernel::kFirstTap - place / 64.0);
+        const float weight = table.row(sigma)[place].weight[n];
+        if (distance > 1 + TapTable::kReach * sigma + 1.5 / TapTable::kPlaces) {
+          EXPECT_EQ(weight, 0) << sigma << " " << distance;
+        } else if (is_within(distance, sigma)) {
+          EXPECT_NEAR(weight, convolved(triangle_at, distance, sigma), kEntryError)
+              << sigma << " " << distance;
+        }
       }
     }
   }
   // By hand: the triangle itself, and E max(0, 1 - |z|) for sigma 1 = erf(1/sqrt(2)) - 2 (phi(0) - phi(1)).
-  EXPECT_EQ(table.row(0)[32], 0.5F);
-  EXPECT_NEAR(table.row(1)[0], 0.682689492137086 - 2 * (0.398942280401433 - 0.241970724519143), 1e-6);
+  EXPECT_EQ(table.row(0)[32].weight[3], 0.5F);
+  EXPECT_NEAR(table.row(1)[0].weight[3], 0.682689492137086 - 2 * (0.398942280401433 - 0.241970724519143),
+              1e-6);
 }
 
-TEST(SurfaceKernel, LooksUpBetweenEntriesOnBothSides) {
-  for (const double sigma : {0.05, 0.123, 0.4567, 0.9, 1.0}) {
+TEST(SurfaceKernel, RoundsKinksAsAGaussianDoes) {
+  for (double z = 0; z < 5; z += 0.0173) {
+    const double density = std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi);
+    EXPECT_NEAR(rounded_kink(static_cast<float>(z)), density - z * std::erfc(z / std::numbers::sqrt2) / 2,
+                kKinkError)
+        << z;
+  }
+}
+
+TEST(SurfaceKernel, IsTheTriangleConvolvedWithGaussiansOnBothSides) {
+  for (const double sigma : {0.0, 0.05, 0.123, 0.2999, 0.3001, 0.4567, 0.9, 1.0}) {
     const SurfaceKernel kernel(sigma * sigma, 0);
-    EXPECT_TRUE(kernel.is_triangle());
     EXPECT_NEAR(kernel.reach(), 1 + 2.6 * sigma, 1e-12);
-    for (double distance = 0; is_within(distance, sigma); distance += 0.0371) {
+    for (double distance = 0; distance < 5; distance += 0.0371) {
       const auto d = static_cast<float>(distance);
-      EXPECT_NEAR(kernel(d), convolved(triangle_at, distance, sigma), kBetweenEntries) << sigma << " " << d;
+      EXPECT_NEAR(kernel(d), convolved(triangle_at, distance, sigma), 4 * kKinkError * sigma + 1e-6)
+          << sigma << " " << d;
       EXPECT_EQ(kernel(-d), kernel(d));
-      EXPECT_EQ(kernel.triangle(d), kernel(d));
+      float weighed = 2;
+      kernel.weigh(d, 1, 1, &weighed);
+      EXPECT_NEAR(weighed, 2 * kernel(d), 1e-6) << sigma << " " << d;
     }
-    EXPECT_EQ(kernel(static_cast<float>(kernel.reach() + 0.05)), 0);
     EXPECT_EQ(kernel(1e6F), 0);
+  }
+}
+
+TEST(SurfaceKernel, TapsAreTheWeightsOfTexelsSideBySide) {
+  for (const double sigma : {0.05, 0.123, 0.4567, 0.9, 1.0}) {
+    for (const double smoothness : {0.0, 0.4, 1.0}) {
+      const SurfaceKernel kernel(sigma * sigma, smoothness);
+      for (float share = 0; share <= 1; share += 0.0371F) {
+        const Taps taps = kernel.taps(share);
+        for (int n = 0; n < Taps::kCount; ++n) {
+          const float distance = static_cast<float>(n + SurfaceKernel::kFirstTap) - share;
+          if (!is_within(std::abs(distance), sigma)) continue;
+          EXPECT_NEAR(taps.weight[n], kernel(distance), kBetweenEntries) << sigma << " " << distance;
+        }
+      }
+    }
   }
 }
 
@@ -106,7 +136,6 @@ TEST(SurfaceKernel, SplineHasTheGaussiansVariance) {
   // The variances of the spline and of the two points add up exactly.
   for (const double sigma : {0.0, 0.1, 0.5}) {
     const SurfaceKernel kernel(sigma * sigma, 1);
-    EXPECT_FALSE(kernel.is_triangle());
     EXPECT_NEAR(kernel.reach(), std::max(2 + sigma, 1 + 2.6 * sigma), 1e-12);
     double variance = 0;
     for (double x = -4; x < 4; x += 1.0 / 256) variance += x * x * kernel(static_cast<float>(x)) / 256;
