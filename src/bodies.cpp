@@ -95,26 +95,18 @@ double delay_by_masses_ahead(const Deflectors& deflectors, const RayPath<Number>
 }
 
 template <class Number>
-SurfaceHit<Number> meet_sphere_at(const Sphere& sphere, const Vector<Number>& first,
-                                  const Vector<Number>& point) {
+SurfaceHit<Number> meet_sphere_at(const Sphere& sphere, const Vector<Number>& point) {
   SurfaceHit<Number> hit;
   hit.outcome = Outcome::Hit;
-  const Vector<Number> normal = point - constant<Number>(sphere.centre);
-  hit.st = st_from_sphere_normal(local_from_parent(sphere.axes, normal));
-  if constexpr (std::is_same_v<Number, Dual>) {
-    hit.magnification = magnification_of_point(first, point, value_of(normal));
-  }
+  hit.st = st_from_sphere_normal(local_from_parent(sphere.axes, point - constant<Number>(sphere.centre)));
   return hit;
 }
 
 template <class Number>
-SurfaceHit<Number> meet_ring_at(const Ring& ring, const Vector<Number>& first, const Vector<Number>& point) {
+SurfaceHit<Number> meet_ring_at(const Ring& ring, const Vector<Number>& point) {
   SurfaceHit<Number> hit;
   hit.outcome = Outcome::Hit;
   hit.st = st_from_ring_point(ring, local_from_parent(ring.axes, point - constant<Number>(ring.centre)));
-  if constexpr (std::is_same_v<Number, Dual>) {
-    hit.magnification = magnification_of_point(first, point, -value_of(point));
-  }
   return hit;
 }
 
@@ -123,9 +115,7 @@ SurfaceHit<Number> meet_card_at(const Camera& camera, FilmPosition film, const V
                                 const Vector<Number>& point) {
   SurfaceHit<Number> hit = meet_plate(camera, film, first, point * reciprocal(length(point)));
   if (hit.outcome != Outcome::Hit) return {};
-  if constexpr (std::is_same_v<Number, Dual>) {
-    hit.magnification = magnification_of_point(first, point, -value_of(point));
-  }
+  hit.magnification = 0;  // the plate's at infinity
   return hit;
 }
 
@@ -157,9 +147,15 @@ RaySegment<Number> shifted_to_ball(const Deflectors& deflectors, const RaySegmen
 template <class Number>
 SurfaceHit<Number> meet_body_at(const Surface& surface, const Camera& camera, FilmPosition film,
                                 const Vector<Number>& first, const Vector<Number>& point) {
-  if (const auto* sphere = std::get_if<Sphere>(&surface)) return meet_sphere_at(*sphere, first, point);
-  if (const auto* ring = std::get_if<Ring>(&surface)) return meet_ring_at(*ring, first, point);
+  if (const auto* sphere = std::get_if<Sphere>(&surface)) return meet_sphere_at(*sphere, point);
+  if (const auto* ring = std::get_if<Ring>(&surface)) return meet_ring_at(*ring, point);
   return meet_card_at(camera, film, first, point);
+}
+
+double magnification_on_body(const Surface& surface, const DualVec3& first, const DualVec3& point) {
+  const auto* sphere = std::get_if<Sphere>(&surface);
+  const Vec3 seen_from = value_of(point);
+  return magnification_of_point(first, point, sphere ? seen_from - sphere->centre : -seen_from);
 }
 
 template <class Number>
@@ -174,10 +170,13 @@ SurfaceHit<Number> meet_body(const Surface& surface, const Camera& camera, FilmP
     return hit;
   }
   const auto& [segment, at] = *meeting;
-  hit = meet_body_at(surface, camera, film, path.segments.front().direction, at.point);
+  const Vector<Number>& first = path.segments.front().direction;
+  hit = meet_body_at(surface, camera, film, first, at.point);
   hit.direction = at.direction;
   hit.bends = path.segments[segment].bends;
   if (hit.outcome != Outcome::Hit) return hit;
+  if constexpr (std::is_same_v<Number, Dual>)
+    hit.magnification = magnification_on_body(surface, first, at.point);
   hit.distance = value_of(path.lengths[segment]) + at.way;
   hit.delay = (hit.distance - length(value_of(at.point))) + shapiro_delay(path, hit.distance);
   if (finite) hit.delay += delay_by_masses_ahead(*finite, path, segment, hit.distance);

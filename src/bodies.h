@@ -39,11 +39,14 @@ template <class Number>
 RaySegment<Number> shifted_to_ball(const Deflectors& deflectors, const RaySegment<Number>& stretch,
                                    const Sphere& sphere);
 
-/// The point `point` of a body as the ray through `film` sees it that left along `first`: outcome, (s, t) and
-/// magnification. `surface` has to be a body.
+/// The point `point` of a body as the ray through `film` sees it: outcome and (s, t). `first`, the direction
+/// in which the ray left, counts for cards alone. `surface` has to be a body.
 template <class Number>
 SurfaceHit<Number> meet_body_at(const Surface& surface, const Camera& camera, FilmPosition film,
                                 const Vector<Number>& first, const Vector<Number>& point);
+
+/// How much larger a body appears at `point` than it would without masses, to a ray that left along `first`.
+double magnification_on_body(const Surface& surface, const DualVec3& first, const DualVec3& point);
 
 /// What a path meets on a body: on a sphere where it first enters. `finite` as of meet().
 template <class Number>

@@ -7,9 +7,10 @@
 namespace lensplane::perspective {
 
 FilmRay ray(const Camera& camera, FilmPosition film) {
-  const auto [a, b] = slopes_from_pixel(camera, film);
+  const double slope = slope_per_pixel(camera);
+  const auto [a, b] = slopes_from_pixel(camera, film, slope);
   const double scale = 1.0 / std::sqrt(a * a + b * b + 1.0);
-  const double by_slope = slope_per_pixel(camera) * scale * scale * scale;
+  const double by_slope = slope * scale * scale * scale;
   return {Vec3(a * scale, b * scale, -scale), Vec3(1.0 + b * b, -a * b, a) * by_slope,
           Vec3(a * b, -1.0 - a * a, -b) * by_slope};
 }

@@ -116,7 +116,10 @@ double slope_per_pixel(const Camera& camera) {
 }
 
 Slopes slopes_from_pixel(const Camera& camera, FilmPosition film) {
-  const double slope = slope_per_pixel(camera);
+  return slopes_from_pixel(camera, film, slope_per_pixel(camera));
+}
+
+Slopes slopes_from_pixel(const Camera& camera, FilmPosition film, double slope) {
   return {(film.x - camera.width / 2.0) * slope, (camera.height / 2.0 - film.y) * slope};
 }
 

@@ -76,6 +76,9 @@ double slope_per_pixel(const Camera& camera);
 /// The slopes in which the film position looks.
 Slopes slopes_from_pixel(const Camera& camera, FilmPosition film);
 
+/// The same with slope_per_pixel() at hand, whose tangent takes longer than all the rest.
+Slopes slopes_from_pixel(const Camera& camera, FilmPosition film, double slope);
+
 /// Where a direction with these slopes meets the film. Inverse of slopes_from_pixel.
 FilmPosition pixel_from_slopes(const Camera& camera, Slopes slopes);
 

@@ -155,8 +155,15 @@ void set_on_body(const Search& search, const StretchHit<Number>& at, int i, Line
                  TraceBatch& batch) {
   const Sight& sight = search.sight;
   const FilmPosition film{batch.x[i], batch.y[i]};
-  const auto first = direction_from_film<Number>(sight.camera, film);
+  Vector<Number> first(Number(0.0));  // not every body asks where the ray left
+  if (sight.effects.magnification || std::holds_alternative<Card>(search.surface())) {
+    first = direction_from_film<Number>(sight.camera, film);
+  }
   auto hit = meet_body_at(search.surface(), sight.camera, film, first, at.point);
+  if constexpr (std::is_same_v<Number, Dual>) {
+    if (sight.effects.magnification && hit.outcome == Outcome::Hit)
+      hit.magnification = magnification_on_body(search.surface(), first, at.point);
+  }
   hit.direction = at.direction;
   hit.bends = search.bends;
   if (hit.outcome == Outcome::Hit) hit.distance = rays.path.v[i] + at.way;
@@ -228,7 +235,7 @@ void see_infinity(const Sight& sight, const LineBatch<Number>& rays, int bends, 
       see_at_infinity(sight, sight.surfaces[k], rays, bends, batch, surface);
       continue;
     }
-    if (surface.passes) {  // of rays that miss it
+    if (sight.effects.direction || sight.effects.bends) {  // of rays that miss it
       for (int i = 0; i < kBatchSize; ++i) {
         if (surface.outcome[i] == Outcome::Hit) continue;
         SurfaceHit<Number> miss;

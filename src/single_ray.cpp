@@ -27,6 +27,8 @@ SurfaceHit<Number> hit_of_body(const Surface& surface, const Camera& camera, Fil
   SurfaceHit<Number> hit = meet_body_at(surface, camera, film, first, body.point);
   hit.direction = body.direction;
   if (hit.outcome != Outcome::Hit) return hit;
+  if constexpr (std::is_same_v<Number, Dual>)
+    hit.magnification = magnification_on_body(surface, first, body.point);
   hit.distance = value_of(body.length);
   hit.delay = value_of(body.delay);
   return hit;

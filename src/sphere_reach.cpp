@@ -4,9 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "src/ray_bundle.h"
 
 namespace lensplane {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Has the mass's plane bent the rays?
 enum class Side { Before, JustBeyond, Beyond };
@@ -102,10 +109,71 @@ LENSPLANE_KERNEL void compare_chords(const Sphere& sphere, const LineBatch<Numbe
   }
 }
 
+/// At least as much as add_slack() adds to any ray of the bundle within `way` metres; infinite where they may
+/// meet the mass.
+double most_slack(const Deflector& deflector, Side side, const RayBundle& bundle, double way) {
+  const auto [from, to] = bundle.along(deflector.position);
+  const double b = bundle.distance_from(deflector.position);
+  if (!(b > 0.0)) return kInfinity;
+  const double behind_camera = bundle.along(Vec3(0)).second;
+  const double over = side == Side::Before   ? std::max(way - from, 0.0) + std::max(behind_camera, 0.0)
+                      : side == Side::Beyond ? 0.0
+                                             : std::max(to, 0.0);
+  return 2.0 * deflector.m * (1.0 + 2.0 * over / b);
+}
+
+double most_slack(const Deflectors* finite, int bends, const RayBundle& bundle, double way) {
+  double slack = 0.0;
+  if (!finite) return slack;
+  for (std::size_t k = 0; k < finite->outward; ++k) {
+    for (const Deflector& deflector : finite->planes[k].deflectors) {
+      slack += most_slack(deflector, side_of(static_cast<int>(k), bends), bundle, way);
+    }
+  }
+  return slack;
+}
+
+// Rounding, of the scene's own lengths, is far less.
+constexpr double kRounding = 1e-9;
+
+/// Is no ray of the batch as near to the sphere as compare() allows?
+template <class Number>
+bool are_far(const Stretches<Number>& stretches, const Sphere& sphere) {
+  const RayBundle bundle = bundle_of(stretches.rays);
+  const auto [shortest, longest] =
+      std::minmax_element(std::begin(stretches.ends.at), std::end(stretches.ends.at));
+  const auto [from, to] = bundle.along(sphere.centre);
+  const double least = std::min(std::max(from, 0.0), *shortest), most = std::min(std::max(to, 0.0), *longest);
+  const double slack = most_slack(stretches.finite, stretches.bends, bundle, most);
+  if (slack > 0.0 && most > 0.0 && !(least > 0.0)) return false;  // by how much is that stretched?
+  const double stretched = least > 0.0 ? 1.0 + 2.0 * sphere.radius / least : 1.0;
+  const Vec3 d = bundle.direction.centre, to_centre = sphere.centre - bundle.start.centre;
+  const double nearest = std::clamp(to_centre.dot(d) / d.dot(d), least, most);
+  const double off =
+      bundle.start.radius + std::max(std::abs(least), std::abs(most)) * bundle.direction.radius;
+  const double distance = length(to_centre - d * nearest);
+  return distance - off - (sphere.radius + slack * stretched) > kRounding * (length(to_centre) + most);
+}
+
+template <class Number>
+bool chords_are_far(const Stretches<Number>& before, const LineBatch<Number>& after, const Sphere& sphere) {
+  const PointBall from = ball_of(before.rays.start, before.rays.direction, before.ends.at);
+  const RayBundle next = bundle_of(after);
+  const double longest = *std::max_element(std::begin(before.ends.at), std::end(before.ends.at));
+  const double slack = most_slack(before.finite, before.bends, bundle_of(before.rays), longest) +
+                       most_slack(before.finite, before.bends + 1, next, 0.0);
+  const double chord = length(next.start.centre - from.centre) + from.radius + next.start.radius;
+  const double distance = length(from.centre - sphere.centre);
+  return distance - from.radius - (sphere.radius + slack + chord) >
+         kRounding * (distance + length(from.centre));
+}
+
 }  // namespace
 
 template <class Number>
 void find_near(const Stretches<Number>& stretches, const Sphere& sphere, BatchArray& near) {
+  std::fill_n(near, kBatchSize, 0.0);
+  if (are_far(stretches, sphere)) return;
   alignas(64) BatchArray way, slack;
   std::fill_n(slack, kBatchSize, 0.0);
   way_nearest(sphere.centre, stretches.rays, stretches.ends, way);
@@ -116,6 +184,7 @@ void find_near(const Stretches<Number>& stretches, const Sphere& sphere, BatchAr
 template <class Number>
 void add_near_chords(const Stretches<Number>& before, const LineBatch<Number>& after, const Sphere& sphere,
                      BatchArray& near) {
+  if (chords_are_far(before, after, sphere)) return;
   alignas(64) BatchArray start, slack;
   std::fill_n(slack, kBatchSize, 0.0);
   std::fill_n(start, kBatchSize, 0.0);
