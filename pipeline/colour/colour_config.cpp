@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
 #include "pipeline/colour/builtin_config.h"
@@ -97,6 +98,27 @@ void apply_rows(const OCIO::ConstCPUProcessorRcPtr& processor, const void* in, S
     OCIO::PackedImageDesc to(target, width, count, 4, OCIO::BIT_DEPTH_F32, OCIO::AutoStride, OCIO::AutoStride,
                              OCIO::AutoStride);
     processor->apply(from, to);
+  });
+}
+
+/// Applies `processor` to pixels in place, in parallel. Much of space is nothing at all, and a view takes its
+/// time: what that becomes is found out once.
+void apply_where_lit(const OCIO::ConstCPUProcessorRcPtr& processor, std::vector<Rgba>& pixels) {
+  constexpr Rgba kNothing{0, 0, 0, 0};
+  constexpr std::size_t kAtOnce = 16384;
+  Rgba nothing = kNothing;
+  processor->applyRGBA(nothing.data());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), kAtOnce), [&](const auto& range) {
+    const auto first = pixels.begin() + static_cast<std::ptrdiff_t>(range.begin());
+    const auto end = pixels.begin() + static_cast<std::ptrdiff_t>(range.end());
+    std::vector<Rgba> lit;
+    std::copy_if(first, end, std::back_inserter(lit), [&](const Rgba& pixel) { return pixel != kNothing; });
+    if (!lit.empty()) {
+      OCIO::PackedImageDesc image(lit.data(), static_cast<long>(lit.size()), 1, 4);
+      processor->apply(image);
+    }
+    auto next = lit.begin();
+    for (auto pixel = first; pixel != end; ++pixel) *pixel = *pixel == kNothing ? nothing : *next++;
   });
 }
 
@@ -239,6 +261,9 @@ Picture ColourConfig::to_working(const EncodedImage& image, const ImageEncoding&
   std::atomic<std::int64_t> not_numbers = 0;
   for_each_pixel(picture, [&not_numbers, has_alpha, premultiplied](Rgba& pixel) {
     if (!has_alpha) pixel[3] = 1.0F;
+    bool is_usual = !has_alpha;  // most pixels are, and one comparison finds all others
+    for (const float channel : pixel) is_usual &= std::abs(channel) <= kBrightest;
+    if (is_usual) return;
     if (!std::all_of(pixel.begin(), pixel.end(), [](float channel) { return std::isfinite(channel); })) {
       ++not_numbers;
       pixel = {0, 0, 0, std::isfinite(pixel[3]) ? pixel[3] : 1.0F};
@@ -265,12 +290,10 @@ ViewSettings ColourConfig::default_view(const std::string& working) const {
   return {working, display, config_->getDefaultView(display.c_str())};
 }
 
-Picture ColourConfig::to_display(const Picture& picture, const ViewSettings& view) const {
+Picture ColourConfig::to_display(Picture picture, const ViewSettings& view) const {
   const auto processor = view_processor(config_, view)->getDefaultCPUProcessor();
-  Picture shown = picture;
-  apply_rows(processor, picture.pixels.data(), SampleType::Float, picture.width, picture.height,
-             shown.pixels.data());
-  return shown;
+  apply_where_lit(processor, picture.pixels);
+  return picture;
 }
 
 }  // namespace lensplane

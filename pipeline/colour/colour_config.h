@@ -92,7 +92,7 @@ class ColourConfig {
 
   /// A picture in the working space as a display shows it. Alpha is taken as shown over black. The values are
   /// not clamped.
-  Picture to_display(const Picture& picture, const ViewSettings& view) const;
+  Picture to_display(Picture picture, const ViewSettings& view) const;
 
  private:
   explicit ColourConfig(OCIO_NAMESPACE::ConstConfigRcPtr config) : config_(std::move(config)) {}

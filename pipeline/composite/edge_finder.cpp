@@ -62,6 +62,8 @@ CentreGrid::CentreGrid(const std::vector<Surface>& surfaces, int width, int heig
     : surfaces_(surfaces), width_(width), height_(height), points_(size() * surfaces.size()) {}
 
 std::vector<std::uint8_t> CentreGrid::edges() const {
+  std::vector<std::uint8_t> edges(size(), 0);
+  if (std::none_of(points_.begin(), points_.end(), [](const SeenPoint& p) { return p.hit; })) return edges;
   const std::size_t count = surfaces_.size();
   std::vector<Lie> lies(points_.size());
   std::vector<bool> globes;
@@ -79,7 +81,6 @@ std::vector<std::uint8_t> CentreGrid::edges() const {
     }
     return false;
   };
-  std::vector<std::uint8_t> edges(size(), 0);
   for (int row = -1; row <= height_; ++row) {
     for (int column = -1; column <= width_; ++column) {
       for (const Step step : {Step{1, 0}, Step{-1, 1}, Step{0, 1}, Step{1, 1}}) {

@@ -30,13 +30,21 @@ class Cone {
     half_chord_ = std::sin(0.5 * std::asin(sphere.radius / distance));
   }
 
-  bool sees(FilmPosition film) const {
-    if (!lensplane::sees(camera_, film)) return false;
-    if (inside_) return true;
-    return (direction_from_film<double>(camera_, film) - axis_).length() <= 2.0 * half_chord_;
+  bool sees(FilmPosition film) const { return lensplane::sees(camera_, film) && outside(film) <= 0.0; }
+
+  /// How many pixels lie between a film position and the sphere, at least; 0 or less on it.
+  double pixels_outside(FilmPosition film) const {
+    return camera_.projection == Projection::Perspective ? outside(film) / slope_per_pixel(camera_) : 0.0;
   }
 
  private:
+  /// By how much a direction is farther from the axis than the edge is, as chords. Within a pixel of a flat
+  /// film directions turn by its slope at most.
+  double outside(FilmPosition film) const {
+    if (inside_) return 0.0;
+    return (direction_from_film<double>(camera_, film) - axis_).length() - 2.0 * half_chord_;
+  }
+
   const Camera& camera_;
   bool inside_ = false;
   Vec3 axis_{0};
@@ -47,8 +55,12 @@ class Cone {
 using RowOfHits = std::vector<std::uint8_t>;
 
 RowOfHits hits_in_row(const Cone& cone, int width, int row) {
-  RowOfHits hits;
-  for (int column = -1; column <= width; ++column) hits.push_back(cone.sees({column + 0.5, row + 0.5}));
+  RowOfHits hits(static_cast<std::size_t>(width) + 2, 0);
+  for (int column = -1; column <= width; ++column) {
+    const FilmPosition film{column + 0.5, row + 0.5};
+    hits[static_cast<std::size_t>(column + 1)] = cone.sees(film);
+    column += static_cast<int>(std::clamp(cone.pixels_outside(film), 0.0, static_cast<double>(width)));
+  }
   return hits;
 }
 

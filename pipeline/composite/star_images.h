@@ -26,7 +26,9 @@ struct StarField {
   std::vector<Rgb> light;  // of every star, unmagnified, linear ACEScg
 };
 
-/// `exposure` in stops: each one doubles all light.
+/// What StarField::light holds of a catalogue. `exposure` in stops: each one doubles all light.
+std::vector<Rgb> star_light(const std::vector<Star>& stars, double exposure = 0);
+
 StarField star_field(const std::vector<Star>& stars, double exposure = 0);
 
 struct StarImage {

@@ -31,6 +31,7 @@ OIIO::ImageSpec png_spec(const Picture& picture, int bits, const DisplayHeader& 
   spec["Software"] = std::string("lensplane ") + kVersion;
   spec["Description"] = header.parameters;  // PNG carries few kinds of text; this one comes back as it was
   if (!header.colour_interop.empty()) spec["colorInteropID"] = header.colour_interop;
+  spec["png:compressionLevel"] = 3;  // dithered pictures are a tenth smaller at 6, and take twice as long
   if (bits == 8) spec["oiio:dither"] = 1;
   // PNG has a word of its own for sRGB, which excludes a profile.
   if (header.colour_interop.starts_with("srgb_rec709_")) {

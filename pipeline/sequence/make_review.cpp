@@ -49,7 +49,7 @@ void make_review(const Shot& shot, const ColourConfig& colours, int frame, const
     shown = beside(shown, display_window(view.picture));
   }
   const Picture display =
-      timed(report[Phase::View].seconds, [&] { return colours.to_display(shown, view_of(shot)); });
+      timed(report[Phase::View].seconds, [&] { return colours.to_display(std::move(shown), view_of(shot)); });
   report[Phase::View].bytes += display.pixels.size() * sizeof(Rgba);
   report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
     const std::string interop = colours.display_interop_id(shot.colour.display.text, shot.colour.view.text);

@@ -37,8 +37,9 @@ StarField turned(const std::vector<Star>& stars, const std::vector<Rgb>& light, 
   std::vector<Vec3> directions;
   for (const Star& star : stars) directions.push_back(axes.parent_from_local(star.direction));
   std::vector<Rgb> exposed = light;
+  const double gain = std::exp2(exposure);
   for (Rgb& colour : exposed) {
-    for (double& channel : colour) channel *= std::exp2(exposure);
+    for (double& channel : colour) channel *= gain;
   }
   return {DirectionIndex(std::move(directions)), std::move(exposed)};
 }
@@ -49,7 +50,7 @@ StarStore::Kept StarStore::read(const StarsLayer& layer) const {
   return located_in_shot(layer.catalogue, [&] {
     Kept kept;
     kept.stars = read_star_catalogue(resolve_shipped(layer.catalogue.text));
-    const std::vector<Rgb> light = star_field(kept.stars).light;
+    const std::vector<Rgb> light = star_light(kept.stars);
     const std::string acescg = colours_.space_of_file(layer.catalogue.text, "lin_ap1_scene");
     kept.light =
         light_from_row(colours_.to_working(row_from_light(light), {acescg, {}}, shot_.colour.working.text));
