@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "pipeline/composite/cubic_spline.h"
+#include "src/batch.h"
 
 namespace lensplane {
 namespace {
@@ -39,6 +40,11 @@ Taps taps_of(double centre, double ratio) {
 /// Halves an axis of `display` texels of which [x, x + stored) are stored. The spline carries light two
 /// texels beyond these; where the picture begins anew at its edges it has no beyond.
 Reduction halve(int display, int x, int stored, Wrap wrap) {
+  if (display == 1) {  // a single texel stays
+    Reduction same{1, x, {}};
+    for (int i = x; i < x + stored; ++i) same.taps.push_back({i, {1.0F}});
+    return same;
+  }
   Reduction reduction{std::max(1, display / 2), 0, {}};
   const double ratio = static_cast<double>(display) / reduction.display;
   int begin = static_cast<int>(std::floor(x / ratio)) - 2;
@@ -57,8 +63,36 @@ Rgba texel(const Picture& picture, Wrap wrap, int column, int row) {
   return place.count > 0 ? picture.at(place.column - picture.x, place.row - picture.y) : Rgba{0, 0, 0, 0};
 }
 
-void add(Rgba& sum, float weight, const Rgba& texel) {
-  for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * texel[c];
+/// Adds `weight` times each of `count` texels to another.
+LENSPLANE_KERNEL void add_texels(const Rgba* texels, float weight, int count, Rgba* sums) {
+  const float* from = texels->data();
+  float* to = sums->data();
+#pragma GCC ivdep
+  for (int i = 0; i < 4 * count; ++i) to[i] += weight * from[i];
+}
+
+/// Adds `weight` times the texels of a row, stored or not, to sums that begin at `column`.
+void add_row(const Picture& fine, Wrap wrap, int column, int row, float weight, std::vector<Rgba>& sums) {
+  const int end = column + static_cast<int>(sums.size());
+  const bool is_stored = row >= fine.y && row < fine.y + fine.height;
+  const int first = is_stored ? std::clamp(fine.x, column, end) : end;
+  const int last = is_stored ? std::clamp(fine.x + fine.width, first, end) : end;
+  const auto sum = [&](int i) { return &sums[static_cast<std::size_t>(i - column)]; };
+  const auto add_texel = [&](int i) {
+    const Rgba one = texel(fine, wrap, i, row);
+    add_texels(&one, weight, 1, sum(i));
+  };
+  for (int i = column; i < first; ++i) add_texel(i);
+  if (last > first) add_texels(&fine.at(first - fine.x, row - fine.y), weight, last - first, sum(first));
+  for (int i = last; i < end; ++i) add_texel(i);
+}
+
+Rgba weighed(const Rgba* texels, const std::vector<float>& weights) {
+  Rgba sum{0, 0, 0, 0};
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    for (std::size_t c = 0; c < 4; ++c) sum[c] += weights[i] * texels[i][c];
+  }
+  return sum;
 }
 
 void for_each_row(const Picture& picture, auto work) {
@@ -67,47 +101,29 @@ void for_each_row(const Picture& picture, auto work) {
   });
 }
 
-Picture narrowed(const Picture& fine, Wrap wrap) {
+/// Rows first, into a buffer of one row: what lies between the two steps never leaves the processor's cache.
+Picture halved(const Picture& fine, Wrap wrap) {
   const Reduction columns = halve(fine.display_width, fine.x, fine.width, wrap);
-  Picture coarse{static_cast<int>(columns.taps.size()),
-                 fine.height,
-                 columns.x,
-                 fine.y,
-                 columns.display,
-                 fine.display_height,
-                 {}};
-  coarse.pixels.resize(columns.taps.size() * static_cast<std::size_t>(coarse.height));
-  for_each_row(coarse, [&](int row) {
-    for (int column = 0; column < coarse.width; ++column) {
-      const Taps& taps = columns.taps[static_cast<std::size_t>(column)];
-      const auto count = static_cast<int>(taps.weights.size());
-      const bool inside = taps.first >= fine.x && taps.first + count <= fine.x + fine.width;
-      const Rgba* stored = inside ? &fine.at(taps.first - fine.x, row) : nullptr;
-      Rgba sum{0, 0, 0, 0};
-      for (int i = 0; i < count; ++i) {
-        add(sum, taps.weights[static_cast<std::size_t>(i)],
-            stored ? stored[i] : texel(fine, wrap, taps.first + i, row + fine.y));
-      }
-      coarse.at(column, row) = sum;
-    }
-  });
-  return coarse;
-}
-
-Picture lowered(const Picture& fine, Wrap wrap) {
   const Reduction rows = halve(fine.display_height, fine.y, fine.height, wrap);
-  Picture coarse{
-      fine.width, static_cast<int>(rows.taps.size()), fine.x, rows.x, fine.display_width, rows.display, {}};
-  coarse.pixels.resize(static_cast<std::size_t>(coarse.width) * rows.taps.size(), Rgba{0, 0, 0, 0});
+  Picture coarse{static_cast<int>(columns.taps.size()),
+                 static_cast<int>(rows.taps.size()),
+                 columns.x,
+                 rows.x,
+                 columns.display,
+                 rows.display,
+                 {}};
+  coarse.pixels.resize(columns.taps.size() * rows.taps.size());
+  const int first = columns.taps.front().first;
+  const int end = columns.taps.back().first + static_cast<int>(columns.taps.back().weights.size());
   for_each_row(coarse, [&](int row) {
+    std::vector<Rgba> sums(static_cast<std::size_t>(end - first), Rgba{0, 0, 0, 0});
     const Taps& taps = rows.taps[static_cast<std::size_t>(row)];
     for (std::size_t i = 0; i < taps.weights.size(); ++i) {
-      const int from = taps.first + static_cast<int>(i);
-      const bool inside = from >= fine.y && from < fine.y + fine.height;
-      for (int column = 0; column < coarse.width; ++column) {
-        add(coarse.at(column, row), taps.weights[i],
-            inside ? fine.at(column, from - fine.y) : texel(fine, wrap, column + fine.x, from));
-      }
+      add_row(fine, wrap, first, taps.first + static_cast<int>(i), taps.weights[i], sums);
+    }
+    for (int column = 0; column < coarse.width; ++column) {
+      const Taps& across = columns.taps[static_cast<std::size_t>(column)];
+      coarse.at(column, row) = weighed(&sums[static_cast<std::size_t>(across.first - first)], across.weights);
     }
   });
   return coarse;
@@ -133,8 +149,7 @@ Pyramid make_pyramid(Picture picture, Wrap wrap) {
   for (;;) {
     const Picture& fine = pyramid.pictures.back();
     if (fine.display_width <= 1 && fine.display_height <= 1) return pyramid;
-    Picture coarse = fine.display_width > 1 ? narrowed(fine, wrap) : fine;
-    if (coarse.display_height > 1) coarse = lowered(coarse, wrap);
+    Picture coarse = halved(fine, wrap);
     const TexelLevel& last = pyramid.levels.back();
     const double variance_x = coarser_variance(last.variance_x, fine.display_width, coarse.display_width);
     const double variance_y = coarser_variance(last.variance_y, fine.display_height, coarse.display_height);

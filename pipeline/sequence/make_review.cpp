@@ -16,6 +16,7 @@ namespace {
 Picture display_window(const Picture& picture) {
   Picture window{picture.display_width, picture.display_height, 0, 0,
                  picture.display_width, picture.display_height, {}};
+  window.pixels.reserve(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
   for (int row = 0; row < window.height; ++row) {
     const Rgba* first = &picture.at(-picture.x, row - picture.y);
     window.pixels.insert(window.pixels.end(), first, first + window.width);
