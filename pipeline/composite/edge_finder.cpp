@@ -6,54 +6,80 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/batch.h"
+
 namespace lensplane {
 namespace {
-
-/// How the picture on a surface lies about a point.
-struct Lie {
-  bool mirrored = false;
-  double width = 1;  // how far s goes there, against t: on a globe twice as far, less towards the poles
-  double reach = 0;  // the way to the next pixel, squared
-};
-
-Lie lie_of(const SeenPoint& point, bool globe) {
-  const Footprint& f = point.footprint;
-  Lie lie;
-  lie.mirrored = f.ds_dx * f.dt_dy > f.ds_dy * f.dt_dx;
-  if (globe) lie.width = 2.0 * std::sin(std::numbers::pi * point.st.t);
-  lie.reach =
-      lie.width * lie.width * (f.ds_dx * f.ds_dx + f.ds_dy * f.ds_dy) + f.dt_dx * f.dt_dx + f.dt_dy * f.dt_dy;
-  return lie;
-}
 
 /// From a pixel to its neighbour.
 struct Step {
   int x, y;
 };
 
-/// Whether two rays meet different surfaces, or the same in another order.
-bool are_different(std::span<const SeenPoint> a, std::span<const SeenPoint> b) {
+/// What the grid sees of one surface, quantity by quantity, for loops over its rows.
+struct Field {
+  bool globe;
+  std::vector<double> hit;  // 0 or 1; all else is 0 where it is 0
+  std::vector<double> s, t, ds_dx, ds_dy, dt_dx, dt_dy;
+  std::vector<double> mirrored;  // 0 or 1
+  std::vector<double> width;     // how far s goes, against t: on a globe twice as far, less towards the poles
+  std::vector<double> reach;     // the way to the next pixel, squared
+
+  Field(const CentreGrid& grid, std::size_t surface, bool is_globe) : globe(is_globe) {
+    for (auto* values : {&hit, &s, &t, &ds_dx, &ds_dy, &dt_dx, &dt_dy, &mirrored, &width, &reach}) {
+      values->resize(grid.size());
+    }
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      if (grid.points(i)[surface].hit) set(i, grid.points(i)[surface]);
+    }
+  }
+
+  void set(std::size_t i, const SeenPoint& point) {
+    const Footprint& f = point.footprint;
+    hit[i] = 1;
+    s[i] = point.st.s, t[i] = point.st.t;
+    ds_dx[i] = f.ds_dx, ds_dy[i] = f.ds_dy, dt_dx[i] = f.dt_dx, dt_dy[i] = f.dt_dy;
+    mirrored[i] = f.ds_dx * f.dt_dy > f.ds_dy * f.dt_dx ? 1 : 0;
+    width[i] = globe ? 2.0 * std::sin(std::numbers::pi * point.st.t) : 1.0;
+    reach[i] =
+        width[i] * width[i] * (f.ds_dx * f.ds_dx + f.ds_dy * f.ds_dy) + f.dt_dx * f.dt_dx + f.dt_dy * f.dt_dy;
+  }
+};
+
+/// Adds to `apart` which of `count` pixels side by side, from number `a` on, are not where their neighbours
+/// from number `b` on expect them: one of the two sees the surface and the other does not, or sees it
+/// mirrored, or is far from where the Jacobians put it, by the mean of both, so that what is left are third
+/// derivatives and whatever has no derivative.
+LENSPLANE_KERNEL void find_apart(const Field& field, std::size_t a, std::size_t b, int count, Step step,
+                                 double* apart) {
+  const double *hit = field.hit.data(), *s = field.s.data(), *t = field.t.data();
+  const double *ds_dx = field.ds_dx.data(), *ds_dy = field.ds_dy.data();
+  const double *dt_dx = field.dt_dx.data(), *dt_dy = field.dt_dy.data();
+  const double *mirrored = field.mirrored.data(), *width = field.width.data(), *reach = field.reach.data();
+  const double x = 0.5 * step.x, y = 0.5 * step.y, seam = field.globe ? 1.0 : 0.0;
+  constexpr double kMost = kMostCurved * kMostCurved;
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    const std::size_t m = a + static_cast<std::size_t>(i), n = b + static_cast<std::size_t>(i);
+    const double straight = s[n] - s[m];
+    const double ds = straight - seam * (straight > 0.5 ? 1.0 : straight < -0.5 ? -1.0 : 0.0);
+    const double off_s = width[m] * (ds - ((ds_dx[m] + ds_dx[n]) * x + (ds_dy[m] + ds_dy[n]) * y));
+    const double off_t = t[n] - t[m] - ((dt_dx[m] + dt_dx[n]) * x + (dt_dy[m] + dt_dy[n]) * y);
+    const double least = reach[m] < reach[n] ? reach[m] : reach[n];
+    const bool near = (off_s * off_s + off_t * off_t <= kMost * least) & (mirrored[m] == mirrored[n]);
+    const bool same = hit[m] == hit[n];
+    apart[i] = same & near ? apart[i] : 1.0;
+  }
+}
+
+/// Whether two rays meet surfaces in different orders.
+bool are_reordered(std::span<const SeenPoint> a, std::span<const SeenPoint> b) {
   for (std::size_t k = 0; k < a.size(); ++k) {
-    if (a[k].hit != b[k].hit) return true;
     for (std::size_t n = 0; a[k].hit && n < k; ++n) {
       if (a[n].hit && (a[k].distance < a[n].distance) != (b[k].distance < b[n].distance)) return true;
     }
   }
   return false;
-}
-
-/// Whether a neighbour is far from where the Jacobians put it: by the mean of both, so that what is left are
-/// third derivatives, and whatever has no derivative.
-bool are_apart(const SeenPoint& a, const Lie& at_a, const SeenPoint& b, const Lie& at_b, Step step,
-               bool globe) {
-  if (at_a.mirrored != at_b.mirrored) return true;
-  const Footprint &f = a.footprint, &g = b.footprint;
-  double ds = b.st.s - a.st.s;
-  if (globe) ds -= std::round(ds);
-  const double off_s =
-      at_a.width * (ds - 0.5 * ((f.ds_dx + g.ds_dx) * step.x + (f.ds_dy + g.ds_dy) * step.y));
-  const double off_t = b.st.t - a.st.t - 0.5 * ((f.dt_dx + g.dt_dx) * step.x + (f.dt_dy + g.dt_dy) * step.y);
-  return !(off_s * off_s + off_t * off_t <= kMostCurved * kMostCurved * std::min(at_a.reach, at_b.reach));
 }
 
 }  // namespace
@@ -64,30 +90,24 @@ CentreGrid::CentreGrid(const std::vector<Surface>& surfaces, int width, int heig
 std::vector<std::uint8_t> CentreGrid::edges() const {
   std::vector<std::uint8_t> edges(size(), 0);
   if (std::none_of(points_.begin(), points_.end(), [](const SeenPoint& p) { return p.hit; })) return edges;
-  const std::size_t count = surfaces_.size();
-  std::vector<Lie> lies(points_.size());
-  std::vector<bool> globes;
-  for (const Surface& surface : surfaces_) {
-    globes.push_back(std::holds_alternative<LatLong>(surface) || std::holds_alternative<Sphere>(surface));
+  std::vector<Field> fields;
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    const Surface& surface = surfaces_[k];
+    fields.emplace_back(*this, k,
+                        std::holds_alternative<LatLong>(surface) || std::holds_alternative<Sphere>(surface));
   }
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (points_[i].hit) lies[i] = lie_of(points_[i], globes[i % count]);
-  }
-  const auto need_more = [&](std::size_t at, std::size_t next, Step step) {
-    if (are_different(points(at), points(next))) return true;
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t a = at * count + k, b = next * count + k;
-      if (points_[a].hit && are_apart(points_[a], lies[a], points_[b], lies[b], step, globes[k])) return true;
-    }
-    return false;
-  };
+  std::vector<double> apart(static_cast<std::size_t>(full_width()));
   for (int row = -1; row <= height_; ++row) {
-    for (int column = -1; column <= width_; ++column) {
-      for (const Step step : {Step{1, 0}, Step{-1, 1}, Step{0, 1}, Step{1, 1}}) {
-        const int x = column + step.x, y = row + step.y;
-        if (x < -1 || x > width_ || y > height_) continue;
-        const std::size_t at = place(column, row), next = place(x, y);
-        if (need_more(at, next, step)) edges[at] = edges[next] = 1;
+    for (const Step step : {Step{1, 0}, Step{-1, 1}, Step{0, 1}, Step{1, 1}}) {
+      if (row + step.y > height_) continue;
+      const int first = step.x < 0 ? 0 : -1, count = full_width() - std::abs(step.x);
+      const std::size_t at = place(first, row), next = place(first + step.x, row + step.y);
+      std::fill(apart.begin(), apart.end(), 0.0);
+      for (const Field& field : fields) find_apart(field, at, next, count, step, apart.data());
+      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        const bool needs_more =
+            apart[i] != 0 || (fields.size() > 1 && are_reordered(points(at + i), points(next + i)));
+        if (needs_more) edges[at + i] = edges[next + i] = 1;
       }
     }
   }
