@@ -181,6 +181,20 @@ TEST(ColourConfig, GradesBeforeTheView) {
   EXPECT_NE(builtin().view_id(plain), builtin().view_id(with));
 }
 
+TEST(ColourConfig, NothingIsShownAsAnyOtherPixel) {
+  const TemporaryFolder folder;
+  const std::string cdl = folder.write("grade.ccc", kCdl).string();  // makes some red of black
+  const ViewSettings view{"ACEScg", "sRGB - Display", "ACES 1.0 - SDR Video", Grade{cdl, "lift", "ACEScg"}};
+  const Rgba nothing{0, 0, 0, 0}, black{0, 0, 0, 1}, light{0.4F, 0.2F, 0.1F, 1}, haze{0.1F, 0.1F, 0.2F, 0};
+  const Picture picture{3, 2, 0, 0, 3, 2, {nothing, light, nothing, haze, black, nothing}};
+  const Picture shown = builtin().to_display(picture, view);
+  EXPECT_GT(shown.at(0, 0)[0], 0.1F);
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const Picture alone{1, 1, 0, 0, 1, 1, {picture.pixels[i]}};
+    EXPECT_EQ(shown.pixels[i], builtin().to_display(alone, view).pixels[0]) << i;
+  }
+}
+
 TEST(ColourConfig, GradesThatCannotBeReadAreRefusedByName) {
   const TemporaryFolder folder;
   const auto line = [&](const std::string& name, const std::string& id) {
