@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "pipeline/composite/gaussian_window.h"
 #include "pipeline/composite/surface_kernel.h"
@@ -40,10 +39,29 @@ struct TapRun {
   }
 };
 
-/// What columns (or rows) weigh together along the longer axis.
+int by_eights(int count) {
+  return (count + Taps::kCount - 1) / Taps::kCount * Taps::kCount;
+}
+
+/// What rows (or columns) weigh together.
 class Marginal {
  public:
   LENSPLANE_ALWAYS_INLINE Marginal(double middle, double variance, double smoothness) {
+    set(middle, variance, smoothness);
+    std::fill_n(&weights_[static_cast<std::size_t>(count())], Taps::kCount, 0.0F);
+  }
+
+  Span span() const { return span_; }
+  /// The weights from number `i` on, and eight more of nothing.
+  const float* from(int i) const { return &weights_[static_cast<std::size_t>(i - span_.first)]; }
+
+  /// More than there can be, those eight included.
+  static constexpr int kMost = static_cast<int>(2 * 3.3 * kLongestCloseSigma) + 2 * Taps::kCount;
+
+ private:
+  int count() const { return span_.last - span_.first + 1; }
+
+  LENSPLANE_ALWAYS_INLINE void set(double middle, double variance, double smoothness) {
     if (variance <= kLargestCloseSigma * kLargestCloseSigma) {
       const SurfaceKernel kernel(variance, smoothness);
       const TapRun run(kernel, middle);
@@ -51,7 +69,6 @@ class Marginal {
       for (int i = span_.first; i <= span_.last; ++i) {
         weights_[static_cast<std::size_t>(i - span_.first)] = run.taps.weight[i - run.first];
       }
-      std::fill_n(&weights_[static_cast<std::size_t>(span_.last + 1 - span_.first)], 8, 0.0F);
       return;
     }
     // One dimension's share of the window loses a little less variance than two do.
@@ -59,22 +76,13 @@ class Marginal {
     span_ = span_around(middle, std::sqrt(static_cast<double>(kCut) * widened));
     const auto per_variance = static_cast<float>(1 / widened);
     const auto offset = static_cast<float>(span_.first - middle);
-    const int count = span_.last - span_.first + 1;
-    for (int n = 0; n < count; ++n) {
+    for (int n = 0; n < count(); ++n) {
       const float distance = offset + static_cast<float>(n);
       const float q = distance * distance * per_variance;
       weights_[static_cast<std::size_t>(n)] = std::max(0.0F, gaussian(q < kCut ? q : kCut) - kEdgeWeight);
     }
-    std::fill_n(&weights_[static_cast<std::size_t>(count)], 8, 0.0F);
   }
 
-  Span span() const { return span_; }
-  /// The weights from number `i` on, and eight more of nothing.
-  const float* from(int i) const { return &weights_[static_cast<std::size_t>(i - span_.first)]; }
-
-  static constexpr int kMost = static_cast<int>(2 * 3.3 * kLongestCloseSigma) + 16;
-
- private:
   Span span_{};
   std::array<float, kMost> weights_;
 };
@@ -101,10 +109,6 @@ Conditional conditional(const AxisFilter& along, const AxisFilter& across, doubl
   return {slant, SurfaceKernel(std::max(0.0, across.variance - slant * between), across.smoothness)};
 }
 
-int by_eights(int count) {
-  return (count + 7) / 8 * 8;
-}
-
 /// Columns are weighed, and within each its rows.
 LENSPLANE_ALWAYS_INLINE inline Rgba mean_along_rows(Texels& texels, double x, double y,
                                                     const Marginal& columns, const Conditional& within) {
@@ -129,7 +133,7 @@ LENSPLANE_ALWAYS_INLINE inline Rgba mean_along_rows(Texels& texels, double x, do
     std::copy_n(columns.from(in_row.first), count, weights);
     kernel.weigh(away, -slant, count, weights);
     const Rgba* texel = texels.row(0, in_row.first, row, count);
-    for (int n = 0; n < count; n += 8) sum.add(weights + n, texel + n);
+    for (int n = 0; n < count; n += Taps::kCount) sum.add(weights + n, texel + n);
   }
   return sum.sum().mean();
 }

@@ -56,10 +56,10 @@ using RowOfHits = std::vector<std::uint8_t>;
 
 RowOfHits hits_in_row(const Cone& cone, int width, int row) {
   RowOfHits hits(static_cast<std::size_t>(width) + 2, 0);
-  for (int column = -1; column <= width; ++column) {
+  for (int column = -1, missed = 0; column <= width; column += 1 + missed) {
     const FilmPosition film{column + 0.5, row + 0.5};
     hits[static_cast<std::size_t>(column + 1)] = cone.sees(film);
-    column += static_cast<int>(std::clamp(cone.pixels_outside(film), 0.0, static_cast<double>(width)));
+    missed = static_cast<int>(std::clamp(cone.pixels_outside(film), 0.0, static_cast<double>(width)));
   }
   return hits;
 }

@@ -29,6 +29,7 @@ struct StarField {
 /// What StarField::light holds of a catalogue. `exposure` in stops: each one doubles all light.
 std::vector<Rgb> star_light(const std::vector<Star>& stars, double exposure = 0);
 
+/// A catalogue with that light.
 StarField star_field(const std::vector<Star>& stars, double exposure = 0);
 
 struct StarImage {
