@@ -153,6 +153,12 @@ TraceBatch Tracer::make_batch() const {
   return lensplane::make_batch(sight());
 }
 
+Tracer Tracer::without_passes() const {
+  Tracer plain = *this;
+  plain.plan_.effects = {};
+  return plain;
+}
+
 void Tracer::trace(TraceBatch& batch) const {
   assert(batch.surfaces.size() == surfaces_.size());
   clear_bodies(sight(), batch);

@@ -25,6 +25,9 @@ class Tracer {
   /// Traces the batch's film positions.
   void trace(TraceBatch& batch) const;
 
+  /// Traces the same rays without any passes, which takes about a third of the time.
+  Tracer without_passes() const;
+
   const Camera& camera() const { return camera_; }
   const Plan& plan() const { return plan_; }
   const std::vector<Surface>& surfaces() const { return surfaces_; }  // in camera axes

@@ -7,6 +7,7 @@ cd "$1"
 declare -A allowed=(
   [src]=""
   [pipeline/image]=""
+  [pipeline/oiio]=""
   [pipeline/shot]=""
   [pipeline/colour]=""
   [pipeline/composite]="pipeline/colour"

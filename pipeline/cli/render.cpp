@@ -11,6 +11,7 @@
 #include "pipeline/cli/threads.h"
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/failure.h"
+#include "pipeline/image/image_library.h"
 #include "pipeline/sequence/overwriting.h"
 #include "pipeline/sequence/plate_margins.h"
 #include "pipeline/sequence/progress.h"
@@ -40,6 +41,8 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
   }
   refuse_overwriting(shot, frames, options.stats);
   const Threads threads(options.threads);
+  std::future<void> images;
+  if (options.command != Command::Map) images = begin_to_load_image_library();
 
   const ColourConfig colours = load_colours(shot, std::getenv("OCIO"));
   const FrameTasks tasks{.maps = options.command != Command::Comp,

@@ -3,7 +3,6 @@
 #include "pipeline/cli/threads.h"
 
 #include <OpenEXR/ImfThreading.h>
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <thread>
@@ -13,7 +12,6 @@ namespace lensplane {
 Threads::Threads(int wanted)
     : count_(wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
       limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count_)) {
-  OIIO::attribute("threads", count_);
   Imf::setGlobalThreadCount(count_ > 1 ? count_ : 0);
 }
 

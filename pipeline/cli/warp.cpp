@@ -18,6 +18,7 @@
 #include "pipeline/image/display_writer.h"
 #include "pipeline/image/exr_writer.h"
 #include "pipeline/image/failure.h"
+#include "pipeline/image/image_library.h"
 #include "pipeline/image/image_reader.h"
 #include "pipeline/image/shipped.h"
 
@@ -124,6 +125,7 @@ void run_warp(const Options& options) {
   const WarpOptions& warp = options.warp;
   check_output(warp);
   const Threads threads(options.threads);
+  const std::future<void> images = begin_to_load_image_library();
   const ColourConfig colours = load_config();
   const std::string image = resolve_shipped(warp.image).string();
   StMap map = read_map(options);

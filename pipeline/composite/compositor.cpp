@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "pipeline/composite/edge_finder.h"
+#include "src/bodies.h"
 
 namespace lensplane {
 namespace {
@@ -66,6 +67,42 @@ float seen_error(const EdgePixel& pixel) {
   return std::sqrt(worst);
 }
 
+/// Traces batches of which most may meet nothing: after one that did not, plain rays go first, and are enough
+/// where they meet nothing, too.
+class SparseTracer {
+ public:
+  explicit SparseTracer(const Tracer& tracer)
+      : tracer_(tracer), plain_(tracer.without_passes()), plain_batch_(plain_.make_batch()) {
+    all_bodies_ = std::all_of(tracer.surfaces().begin(), tracer.surfaces().end(), is_body);
+  }
+
+  /// False when the rays meet nothing, and the batch may not have been written.
+  bool trace(TraceBatch& batch) {
+    if (all_bodies_ && empty_) {
+      std::copy_n(batch.x, kBatchSize, plain_batch_.x);
+      std::copy_n(batch.y, kBatchSize, plain_batch_.y);
+      plain_.trace(plain_batch_);
+      if (meets_nothing(plain_batch_)) return false;
+    }
+    tracer_.trace(batch);
+    empty_ = meets_nothing(batch);
+    return !empty_;
+  }
+
+ private:
+  static bool meets_nothing(const TraceBatch& batch) {
+    return std::none_of(batch.surfaces.begin(), batch.surfaces.end(), [](const SurfaceBatch& surface) {
+      return std::find(surface.outcome.begin(), surface.outcome.end(), Outcome::Hit) != surface.outcome.end();
+    });
+  }
+
+  const Tracer& tracer_;
+  Tracer plain_;
+  TraceBatch plain_batch_;
+  bool all_bodies_ = false;  // nothing lies at infinity, where every ray meets it
+  bool empty_ = false;       // the last batch met nothing
+};
+
 /// Traces and looks at one tile at a time; one for each thread.
 class TileTaker {
  public:
@@ -73,6 +110,7 @@ class TileTaker {
       : tracer_(tracer),
         sampling_(sampling),
         viewer_(tracer.surfaces(), looks),
+        sparse_(tracer),
         batch_(tracer.make_batch()),
         points_(tracer.surfaces().size()) {}
 
@@ -111,9 +149,9 @@ class TileTaker {
   }
 
   /// Traces rays number 0 to `rays` at film positions `position(n)`, by batches, and calls `use(n, i)` for
-  /// each ray n, which is number i of its batch.
-  template <class Position, class Use>
-  void trace(std::size_t rays, Position position, Use use) {
+  /// each ray n, which is number i of its batch, unless `trace_batch(batch)` says that they meet nothing.
+  template <class Position, class TraceBatchOf, class Use>
+  void trace(std::size_t rays, Position position, TraceBatchOf trace_batch, Use use) {
     for (std::size_t first = 0; first < rays; first += kBatchSize) {
       const std::size_t count = std::min<std::size_t>(kBatchSize, rays - first);
       for (std::size_t i = 0; i < kBatchSize; ++i) {
@@ -121,7 +159,7 @@ class TileTaker {
         batch_.x[i] = film.x;
         batch_.y[i] = film.y;
       }
-      tracer_.trace(batch_);
+      if (!trace_batch(batch_)) continue;
       for (std::size_t i = 0; i < count; ++i) use(first + i, i);
     }
     counts_.rays += static_cast<std::int64_t>(rays);
@@ -132,6 +170,7 @@ class TileTaker {
     trace(
         grid.size(),
         [&](std::size_t n) { return film(static_cast<int>(n % width) - 1, static_cast<int>(n / width) - 1); },
+        [&](TraceBatch& batch) { return sparse_.trace(batch); },
         [&](std::size_t n, std::size_t i) {
           for (std::size_t k = 0; k < points_.size(); ++k) {
             grid.points(n)[k] = seen_point(batch_.surfaces[k], i);
@@ -170,6 +209,10 @@ class TileTaker {
           const FilmPosition centre = film(pixel.column, pixel.row);
           return FilmPosition{centre.x + offset.x, centre.y + offset.y};
         },
+        [&](TraceBatch& batch) {
+          tracer_.trace(batch);
+          return true;
+        },
         [&](std::size_t n, std::size_t i) {
           EdgePixel& pixel = *pixels[n / each];
           for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
@@ -199,6 +242,7 @@ class TileTaker {
   const Tracer& tracer_;
   const Sampling& sampling_;
   Viewer viewer_;
+  SparseTracer sparse_;
   TraceBatch batch_;
   std::vector<SeenPoint> points_;  // of one ray
   Tile tile_{};

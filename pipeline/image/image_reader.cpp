@@ -2,51 +2,18 @@
 
 #include "pipeline/image/image_reader.h"
 
-#include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
-
-#include "pipeline/image/failure.h"
-#include "pipeline/image/pixel_layout.h"
+#include "pipeline/image/image_library.h"
 
 namespace lensplane {
-namespace {
-
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
-  throw Failure(ExitCode::BadInput, fmt::format("{}: cannot be read as an image: {}", path.string(), reason));
-}
-
-}  // namespace
 
 EncodedImage read_image(const std::filesystem::path& path) {
-  std::error_code status;
-  if (!std::filesystem::exists(path, status)) {
-    throw Failure(ExitCode::BadInput, fmt::format("{}: no such image", path.string()));
-  }
-  OIIO::ImageSpec as_stored;
-  as_stored["oiio:UnassociatedAlpha"] =
-      1;  // else 8-bit colours would be premultiplied before they are linear
-  const auto input = OIIO::ImageInput::open(path.string(), &as_stored);
-  if (!input) refuse(path, OIIO::geterror());
-  const OIIO::ImageSpec& spec = input->spec();
-  const PixelLayout layout = pixel_layout(path, spec, input->format_name());
-  if (spec.image_pixels() > kMaxImagePixels) {
-    refuse(path, fmt::format("{} x {} pixels; allowed: up to {} million", spec.width, spec.height,
-                             kMaxImagePixels >> 20));
-  }
-  std::vector<std::byte> file(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels) *
-                              size_of(layout.type));
-  if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(layout.type), file.data()))
-    refuse(path, input->geterror());
-  return packed(layout, windows_of(spec), file);
+  return image_library().read_image(path);
 }
 
 std::string read_interop_id(const std::filesystem::path& path) {
-  const auto input = OIIO::ImageInput::open(path.string());
-  if (!input) {
-    OIIO::geterror();  // an unread error would be printed later
-    return {};
-  }
-  return std::string(input->spec().get_string_attribute("colorInteropID"));
+  const std::filesystem::path extension = path.extension();
+  if (extension == ".jpg" || extension == ".jpeg") return {};  // JPEG has no place for it
+  return image_library().read_attribute(path, "colorInteropID");
 }
 
 }  // namespace lensplane

@@ -4,10 +4,13 @@
 
 namespace lensplane {
 
+std::filesystem::path installation_folder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
+}
+
 std::filesystem::path resolve_shipped(const std::string& path) {
   if (!path.starts_with(kShippedPrefix)) return path;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  return program.parent_path().parent_path() / "share/lensplane" / path.substr(kShippedPrefix.size());
+  return installation_folder() / "share/lensplane" / path.substr(kShippedPrefix.size());
 }
 
 }  // namespace lensplane

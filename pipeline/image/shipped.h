@@ -12,6 +12,9 @@ namespace lensplane {
 
 inline constexpr std::string_view kShippedPrefix = "lensplane:";
 
+/// Where the program is installed: the folder that holds its own, bin.
+std::filesystem::path installation_folder();
+
 /// The path of a file: as it stands, or in the folder share/lensplane beside the program's own when it starts
 /// with kShippedPrefix.
 std::filesystem::path resolve_shipped(const std::string& path);

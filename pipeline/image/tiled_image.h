@@ -7,18 +7,12 @@
 
 #pragma once
 
-#include <OpenImageIO/oiioversion.h>
-
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "pipeline/image/pixel_layout.h"
-
-OIIO_NAMESPACE_BEGIN
-class ImageCache;
-OIIO_NAMESPACE_END
+#include "pipeline/image/encoded_image.h"
 
 namespace lensplane {
 
@@ -37,26 +31,21 @@ class TiledImage {
     int height = 0;
   };
 
-  /// Throws Failure (BadInput) that names `maketx` when the file is not tiled, or has no pyramid, and with
-  /// the reason when it cannot be used: pixels outside of its display window, or no colours in it.
-  /// `cache_bytes`: what the ImageCache may hold.
-  TiledImage(const std::filesystem::path& path, std::size_t cache_bytes);
+  virtual ~TiledImage() = default;
 
   /// The finest first.
-  const std::vector<Level>& levels() const { return levels_; }
-  int tile_width() const { return tile_width_; }
-  int tile_height() const { return tile_height_; }
+  virtual const std::vector<Level>& levels() const = 0;
+  virtual int tile_width() const = 0;
+  virtual int tile_height() const = 0;
 
   /// The tile at a column and a row of tiles, cut off at the edges of the level. Throws Failure (BadInput).
-  EncodedImage tile(int level, int column, int row) const;
-
- private:
-  std::string path_;
-  std::shared_ptr<OIIO::ImageCache> cache_;
-  std::vector<Level> levels_;
-  int tile_width_ = 0;
-  int tile_height_ = 0;
-  PixelLayout layout_;
+  virtual EncodedImage tile(int level, int column, int row) const = 0;
 };
+
+/// Throws Failure (BadInput) that names `maketx` when the file is not tiled, or has no pyramid, and with the
+/// reason when it cannot be used: pixels outside of its display window, or no colours in it. `cache_bytes`:
+/// what the ImageCache may hold.
+std::shared_ptr<const TiledImage> open_tiled_image(const std::filesystem::path& path,
+                                                   std::size_t cache_bytes);
 
 }  // namespace lensplane

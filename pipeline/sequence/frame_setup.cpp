@@ -134,10 +134,12 @@ FrameSetup set_up_frame(const Shot& shot, const ColourConfig& colours, TextureSt
         Fingerprint().add(setup.picture_header.parameters).add(digest_of_maps(shot, frame)).digest();
   }
   if (shot.output.review) setup.review_parameters = fingerprint_of_review(shot, colours, setup);
-  const bool picture_done = exr_is_done(picture_path(shot, frame), setup.picture_header);
-  const bool review_done =
-      !shot.output.review || read_display_parameters(review_path(shot, frame)) == setup.review_parameters;
-  setup.picture = tasks.redo || !picture_done || !review_done;
+  const auto review_done = [&] {
+    return !shot.output.review ||
+           read_display_parameters(review_path(shot, frame)) == setup.review_parameters;
+  };
+  setup.picture =
+      tasks.redo || !exr_is_done(picture_path(shot, frame), setup.picture_header) || !review_done();
   return setup;
 }
 

@@ -66,8 +66,7 @@ Texture TextureStore::read(const LayerImage& image, Wrap wrap, int frame) const 
       return colours_.to_working(encoded, encoding, shot_.colour.working.text);
     };
     if (!is_larger_than_memory(path)) return Texture(to_working(read_image(path)), wrap);
-    return Texture(TiledTexture(std::make_shared<TiledImage>(path, kFileCacheBytes), to_working, tiles_),
-                   wrap);
+    return Texture(TiledTexture(open_tiled_image(path, kFileCacheBytes), to_working, tiles_), wrap);
   });
 }
 

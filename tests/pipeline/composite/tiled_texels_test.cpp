@@ -65,7 +65,7 @@ class TiledTextures : public testing::Test {
   TiledTextures() { write_tiled(path_, noise(), 16); }
 
   TiledTexture open(const std::shared_ptr<TileCache>& cache) const {
-    return {std::make_shared<const TiledImage>(path_, std::size_t{1} << 20), float_pixels, cache};
+    return {open_tiled_image(path_, std::size_t{1} << 20), float_pixels, cache};
   }
 
   TemporaryFolder folder_;
@@ -112,7 +112,7 @@ TEST_F(TiledTextures, ServeSeveralThreadsWithinTheBudget) {
 }
 
 TEST_F(TiledTextures, CountWhatIsNoNumber) {
-  const auto image = std::make_shared<const TiledImage>(path_, std::size_t{1} << 20);
+  const auto image = open_tiled_image(path_, std::size_t{1} << 20);
   const TiledTexture tiled(
       image,
       [](const EncodedImage& encoded) {

@@ -27,7 +27,8 @@ Picture numbered(int width, int height) {
 TEST(TiledImage, TilesAreTheFilesPixels) {
   const TemporaryFolder folder;
   write_tiled(folder / "numbered.tx", numbered(100, 70), 32);
-  const TiledImage image(folder / "numbered.tx", kCacheBytes);
+  const auto file = open_tiled_image(folder / "numbered.tx", kCacheBytes);
+  const TiledImage& image = *file;
   ASSERT_EQ(image.levels().size(), 7);
   EXPECT_EQ(image.levels()[1].width, 50);
   EXPECT_EQ(image.levels()[6].height, 1);
@@ -44,14 +45,14 @@ TEST(TiledImage, WhatHasNoTilesIsRefusedWithTheWayOut) {
   const TemporaryFolder folder;
   const std::string path = (folder / "plain.png").string();
   write_display(path, numbered(10, 10), 8, {});
-  const Refusal refusal = refusal_of([&] { TiledImage(path, kCacheBytes); });
+  const Refusal refusal = refusal_of([&] { open_tiled_image(path, kCacheBytes); });
   EXPECT_EQ(refusal.code, ExitCode::BadInput);
   EXPECT_EQ(refusal.line,
             path +
                 ": cannot be read tile by tile: 10 x 10 pixels, but not both in tiles and in smaller "
                 "sizes, too; make a file that is so: maketx " +
                 path + " -o FILE.tx");
-  EXPECT_THAT(refusal_of([&] { TiledImage(folder / "none.tx", kCacheBytes); }).line,
+  EXPECT_THAT(refusal_of([&] { open_tiled_image(folder / "none.tx", kCacheBytes); }).line,
               HasSubstr("none.tx: cannot be read tile by tile: "));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include "pipeline/image/pixel_layout.h"
+#include "pipeline/oiio/pixel_layout.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 
 #include "pipeline/image/failure.h"
 
-namespace lensplane {
+namespace lensplane::oiio {
 namespace {
 
 // Half one, to fill the alpha of half files that have none.
@@ -105,4 +105,4 @@ PixelWindows windows_of(const OIIO::ImageSpec& spec) {
           spec.y - spec.full_y, spec.full_width, spec.full_height};
 }
 
-}  // namespace lensplane
+}  // namespace lensplane::oiio

@@ -20,7 +20,7 @@ class ImageSpec;
 struct TypeDesc;
 OIIO_NAMESPACE_END
 
-namespace lensplane {
+namespace lensplane::oiio {
 
 /// How an image file holds its samples.
 struct PixelLayout {
@@ -45,4 +45,4 @@ EncodedImage packed(const PixelLayout& layout, const PixelWindows& windows,
 /// Where the file's pixels lie.
 PixelWindows windows_of(const OIIO::ImageSpec& spec);
 
-}  // namespace lensplane
+}  // namespace lensplane::oiio

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Image files as they are on disk.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "pipeline/image/encoded_image.h"
+
+namespace lensplane::oiio {
+
+/// As pipeline/image/image_reader.h has it.
+EncodedImage read_image(const std::filesystem::path& path);
+
+/// What ImageLibrary says.
+std::string read_attribute(const std::filesystem::path& path, const char* name);
+
+}  // namespace lensplane::oiio
