@@ -36,8 +36,8 @@ std::pair<double, double> RayBundle::along(const Vec3& to) const {
   return {middle - off, middle + off};
 }
 
-double RayBundle::distance_from(const Vec3& point) const {
-  const auto [from, to] = along(point);
+double RayBundle::distance_from(const Vec3& point, std::pair<double, double> way) const {
+  const auto [from, to] = way;
   const double middle = (from + to) / 2, off = (to - from) / 2;
   // Foot points differ by where rays start, how far they go, and whereto.
   return length(point - start.centre - direction.centre * middle) -

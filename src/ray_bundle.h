@@ -28,7 +28,8 @@ struct RayBundle {
   std::pair<double, double> along(const Vec3& to) const;
 
   /// At least so far do the lines that the rays lie on pass by a point; negative when that is not known.
-  double distance_from(const Vec3& point) const;
+  /// `way`: along(point).
+  double distance_from(const Vec3& point, std::pair<double, double> way) const;
 };
 
 template <class Number>

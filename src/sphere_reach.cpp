@@ -112,13 +112,17 @@ LENSPLANE_KERNEL void compare_chords(const Sphere& sphere, const LineBatch<Numbe
 /// At least as much as add_slack() adds to any ray of the bundle within `way` metres; infinite where they may
 /// meet the mass.
 double most_slack(const Deflector& deflector, Side side, const RayBundle& bundle, double way) {
-  const auto [from, to] = bundle.along(deflector.position);
-  const double b = bundle.distance_from(deflector.position);
+  const auto way_by = bundle.along(deflector.position);
+  const auto [from, to] = way_by;
+  const double b = bundle.distance_from(deflector.position, way_by);
   if (!(b > 0.0)) return kInfinity;
-  const double behind_camera = bundle.along(Vec3(0)).second;
-  const double over = side == Side::Before   ? std::max(way - from, 0.0) + std::max(behind_camera, 0.0)
-                      : side == Side::Beyond ? 0.0
-                                             : std::max(to, 0.0);
+  double over = 0.0;
+  if (side == Side::Before) {
+    const double behind_camera = bundle.along(Vec3(0)).second;
+    over = std::max(way - from, 0.0) + std::max(behind_camera, 0.0);
+  } else if (side == Side::JustBeyond) {
+    over = std::max(to, 0.0);
+  }
   return 2.0 * deflector.m * (1.0 + 2.0 * over / b);
 }
 

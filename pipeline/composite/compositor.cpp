@@ -67,26 +67,29 @@ float seen_error(const EdgePixel& pixel) {
   return std::sqrt(worst);
 }
 
-/// Traces batches of which most may meet nothing: after one that did not, plain rays go first, and are enough
-/// where they meet nothing, too.
+/// What became of a batch: its rays were traced and may meet something; they meet nothing; or that was known
+/// before, and no ray was traced.
+enum class Found { Something, Nothing, NothingNew };
+
+/// Traces batches of pixel centres of which most may meet nothing: those that are known to are left out;
+/// where nothing is known, plain rays go first after a batch that met nothing, and are enough for another.
 class SparseTracer {
  public:
-  explicit SparseTracer(const Tracer& tracer)
-      : tracer_(tracer), plain_(tracer.without_passes()), plain_batch_(plain_.make_batch()) {
+  SparseTracer(const Tracer& tracer, const EmptySpace& empty)
+      : tracer_(tracer), empty_(empty), plain_(tracer.without_passes()), plain_batch_(plain_.make_batch()) {
     all_bodies_ = std::all_of(tracer.surfaces().begin(), tracer.surfaces().end(), is_body);
   }
 
-  /// False when the rays meet nothing, and the batch may not have been written.
-  bool trace(TraceBatch& batch) {
-    if (all_bodies_ && empty_) {
-      std::copy_n(batch.x, kBatchSize, plain_batch_.x);
-      std::copy_n(batch.y, kBatchSize, plain_batch_.y);
-      plain_.trace(plain_batch_);
-      if (meets_nothing(plain_batch_)) return false;
-    }
+  /// The batch is written when there is something in it.
+  Found trace(TraceBatch& batch) {
+    const EmptySpace::Known known = empty_.known_of(batch);
+    if (known == EmptySpace::Known::MeetsNothing) return Found::NothingNew;
+    if (known == EmptySpace::Known::Nothing && all_bodies_ && last_met_nothing_ &&
+        plain_rays_meet_nothing(batch))
+      return Found::Nothing;
     tracer_.trace(batch);
-    empty_ = meets_nothing(batch);
-    return !empty_;
+    last_met_nothing_ = meets_nothing(batch);
+    return last_met_nothing_ ? Found::Nothing : Found::Something;
   }
 
  private:
@@ -96,21 +99,30 @@ class SparseTracer {
     });
   }
 
+  bool plain_rays_meet_nothing(const TraceBatch& batch) {
+    std::copy_n(batch.x, kBatchSize, plain_batch_.x);
+    std::copy_n(batch.y, kBatchSize, plain_batch_.y);
+    plain_.trace(plain_batch_);
+    return meets_nothing(plain_batch_);
+  }
+
   const Tracer& tracer_;
+  const EmptySpace& empty_;
   Tracer plain_;
   TraceBatch plain_batch_;
   bool all_bodies_ = false;  // nothing lies at infinity, where every ray meets it
-  bool empty_ = false;       // the last batch met nothing
+  bool last_met_nothing_ = false;
 };
 
 /// Traces and looks at one tile at a time; one for each thread.
 class TileTaker {
  public:
-  TileTaker(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling)
+  TileTaker(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling,
+            const EmptySpace& empty)
       : tracer_(tracer),
         sampling_(sampling),
         viewer_(tracer.surfaces(), looks),
-        sparse_(tracer),
+        sparse_(tracer, empty),
         batch_(tracer.make_batch()),
         points_(tracer.surfaces().size()) {}
 
@@ -149,7 +161,7 @@ class TileTaker {
   }
 
   /// Traces rays number 0 to `rays` at film positions `position(n)`, by batches, and calls `use(n, i)` for
-  /// each ray n, which is number i of its batch, unless `trace_batch(batch)` says that they meet nothing.
+  /// each ray n, which is number i of its batch, where `trace_batch(batch)` has found something.
   template <class Position, class TraceBatchOf, class Use>
   void trace(std::size_t rays, Position position, TraceBatchOf trace_batch, Use use) {
     for (std::size_t first = 0; first < rays; first += kBatchSize) {
@@ -159,10 +171,11 @@ class TileTaker {
         batch_.x[i] = film.x;
         batch_.y[i] = film.y;
       }
-      if (!trace_batch(batch_)) continue;
+      const Found found = trace_batch(batch_);
+      if (found != Found::NothingNew) counts_.rays += static_cast<std::int64_t>(count);
+      if (found != Found::Something) continue;
       for (std::size_t i = 0; i < count; ++i) use(first + i, i);
     }
-    counts_.rays += static_cast<std::int64_t>(rays);
   }
 
   void trace_centres(CentreGrid& grid) {
@@ -211,7 +224,7 @@ class TileTaker {
         },
         [&](TraceBatch& batch) {
           tracer_.trace(batch);
-          return true;
+          return Found::Something;
         },
         [&](std::size_t n, std::size_t i) {
           EdgePixel& pixel = *pixels[n / each];
@@ -255,14 +268,15 @@ float seen_brightness(float light) {
   return light / (std::abs(light) + kMiddleGrey);
 }
 
-Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling) {
+Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling,
+                    const EmptySpace& empty) {
   const Camera& camera = tracer.camera();
   Composite result{blank_picture(camera), std::vector<double>(looks.size(), 0.0)};
   const int columns = (camera.full_width() + kTileSize - 1) / kTileSize;
   const int rows = (camera.full_height() + kTileSize - 1) / kTileSize;
   std::vector<TileCounts> counts(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows), [&](const tbb::blocked_range<int>& range) {
-    TileTaker taker(tracer, looks, sampling);
+    TileTaker taker(tracer, looks, sampling, empty);
     for (int i = range.begin(); i != range.end(); ++i) {
       const int left = i % columns * kTileSize, top = i / columns * kTileSize;
       const Tile tile{left, top, std::min(kTileSize, camera.full_width() - left),

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/composite/empty_space.h"
 #include "pipeline/composite/layering.h"
 #include "pipeline/composite/sample_pattern.h"
 #include "src/tracer.h"
@@ -31,9 +32,11 @@ inline constexpr float kMiddleGrey = 0.18F;
 float seen_brightness(float light);
 
 /// The picture that the tracer's camera takes; `looks` in the order of its surfaces. The tracer's plan has to
-/// call for the Jacobian. Where a ray meets nothing the picture is transparent black. Runs in parallel; the
-/// picture does not depend on the number of threads.
-Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling);
+/// call for the Jacobian. Where a ray meets nothing the picture is transparent black. `empty`: what is known
+/// already of what this tracer's rays meet. Runs in parallel; the picture depends neither on the number of
+/// threads nor on what is known.
+Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling,
+                    const EmptySpace& empty = {});
 
 /// Adds all of `other`, which has the same windows and surfaces, to `sum`; multiplies pictures and hits. The
 /// mean of several is a picture taken over time.

@@ -27,7 +27,9 @@ const ImageLibrary& load() {
   for (const char* name : kLoadedFirst) ::dlopen(name, RTLD_LAZY | RTLD_LOCAL);
   void* library = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (!library) {
-    throw Failure(ExitCode::BadInput, fmt::format("{}: cannot be loaded: {}", path, ::dlerror()));
+    std::string reason = ::dlerror();  // mostly begins with the path
+    if (reason.starts_with(path + ": ")) reason.erase(0, path.size() + 2);
+    throw Failure(ExitCode::BadInput, fmt::format("{}: cannot be loaded: {}", path, reason));
   }
   auto* entry = reinterpret_cast<ImageLibraryEntry*>(::dlsym(library, kImageLibraryEntry));
   if (!entry) {

@@ -11,13 +11,18 @@
 namespace lensplane::oiio {
 namespace {
 
+constexpr int kPaeth = 0x80;  // libpng's number of that filter
+
 OIIO::ImageSpec png_spec(const Picture& picture, int bits, const DisplayHeader& header) {
   OIIO::ImageSpec spec(picture.width, picture.height, 3,
                        bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
   spec["Software"] = std::string("lensplane ") + kVersion;
   spec["Description"] = header.parameters;  // PNG carries few kinds of text; this one comes back as it was
   if (!header.colour_interop.empty()) spec["colorInteropID"] = header.colour_interop;
-  spec["png:compressionLevel"] = 3;  // dithered pictures are a tenth smaller at 6, and take twice as long
+  // In dithered pictures there is little to find but runs: so they are as small as at zlib's level 3 with all
+  // filters, in three quarters of the time.
+  spec["compression"] = "rle";
+  spec["png:filter"] = kPaeth;
   if (bits == 8) spec["oiio:dither"] = 1;
   // PNG has a word of its own for sRGB, which excludes a profile.
   if (header.colour_interop.starts_with("srgb_rec709_")) {

@@ -84,7 +84,7 @@ int rows_per_band(std::size_t bytes_per_row) {
 
 }  // namespace
 
-void make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport& report) {
+EmptySpace make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport& report) {
   const std::vector<std::size_t> layers = layers_of(setup);
   Scene wanted = setup.scene;
   wanted.surfaces.clear();
@@ -100,9 +100,12 @@ void make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport
   const int height = camera.full_height();
   int band = TileLevels{}.size;  // one row of tiles, which says how many fit into a band
   std::vector<LensMap> maps;
+  const bool all = setup.data.empty() && wanted.surfaces.size() == setup.scene.surfaces.size();
+  EmptySpace empty = all ? EmptySpace(camera) : EmptySpace();
   for (int row = 0; row < height;) {
     const RowRange rows{row, std::min(height, row + band)};
     maps = timed(tracing.seconds, [&] { return trace_maps(tracer, rows, std::move(maps)); });
+    if (all) empty.learn(maps, rows);
     timed(writing.seconds, [&] {
       for (LayerFile& file : files) file.write(maps, window);
     });
@@ -114,6 +117,7 @@ void make_maps(const Shot& shot, int frame, const FrameSetup& setup, FrameReport
     for (LayerFile& file : files) writing.bytes += file.file->commit();
   });
   report.rays += static_cast<std::int64_t>(camera.full_width()) * height;
+  return empty;
 }
 
 }  // namespace lensplane

@@ -5,6 +5,7 @@
 #include "pipeline/composite/compositor.h"
 #include "pipeline/composite/glow.h"
 #include "pipeline/composite/star_layer.h"
+#include "pipeline/sequence/fingerprint.h"
 #include "pipeline/sequence/frame_looks.h"
 #include "pipeline/sequence/make_review.h"
 #include "pipeline/sequence/maps_picture.h"
@@ -38,9 +39,9 @@ void report_images(const Shot& shot, const std::vector<SurfaceLook>& looks, Fram
   }
 }
 
-/// The picture of one instant.
+/// The picture of one instant. `empty` is known of the rays that `setup` describes.
 Composite take_instant(const Shot& shot, ShotAssets& assets, int frame, const Moment& moment,
-                       FrameReport& report) {
+                       const FrameSetup& setup, const EmptySpace& empty, FrameReport& report) {
   const Scene scene = scene_at(shot, moment.time);
   const auto looks = load_looks(shot, scene, assets, frame, moment.time, report);
   TraceSettings settings = trace_at(shot, moment.time);
@@ -48,7 +49,9 @@ Composite take_instant(const Shot& shot, ShotAssets& assets, int frame, const Mo
   settings.effects.jacobian = true;
   return timed(report[Phase::Composite].seconds, [&] {
     const Tracer tracer(scene, plan_trace(scene, settings));
-    Composite instant = composite(tracer, looks, moment.sampling);
+    const bool same = fingerprint_of_trace(scene, tracer.plan()).digest() ==
+                      fingerprint_of_trace(setup.scene, setup.plan).digest();
+    Composite instant = composite(tracer, looks, moment.sampling, same ? empty : EmptySpace());
     for (std::size_t k = 0; k < shot.layers.size(); ++k) {
       if (!std::holds_alternative<StarsLayer>(shot.layers[k].kind)) continue;
       add_stars(tracer, looks, *assets.stars.field(k, moment.time), instant.picture);
@@ -59,11 +62,12 @@ Composite take_instant(const Shot& shot, ShotAssets& assets, int frame, const Mo
 }
 
 /// The mean of the instants while the shutter is open.
-Composite take_exposure(const Shot& shot, ShotAssets& assets, int frame, FrameReport& report) {
+Composite take_exposure(const Shot& shot, ShotAssets& assets, int frame, const FrameSetup& setup,
+                        const EmptySpace& empty, FrameReport& report) {
   const std::vector<Moment> moments = moments_of(shot, frame);
-  Composite exposure = take_instant(shot, assets, frame, moments.front(), report);
+  Composite exposure = take_instant(shot, assets, frame, moments.front(), setup, empty, report);
   for (std::size_t n = 1; n < moments.size(); ++n) {
-    add(take_instant(shot, assets, frame, moments[n], report), exposure);
+    add(take_instant(shot, assets, frame, moments[n], setup, empty, report), exposure);
   }
   scale(1.0 / static_cast<double>(moments.size()), exposure);
   return exposure;
@@ -86,14 +90,25 @@ void write_picture(const Shot& shot, int frame, const FrameSetup& setup, const P
 
 }  // namespace
 
+std::vector<SurfaceLook> load_picture(const Shot& shot, ShotAssets& assets, int frame,
+                                      const FrameSetup& setup, FrameReport& report) {
+  // Stars first: they do not wait for the library that reads images.
+  timed(report[Phase::Load].seconds, [&] {
+    for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+      if (std::holds_alternative<StarsLayer>(shot.layers[k].kind)) assets.stars.field(k, frame);
+    }
+  });
+  return load_looks(shot, setup.scene, assets, frame, frame, report);
+}
+
 void make_picture(const Shot& shot, const ColourConfig& colours, ShotAssets& assets, int frame,
-                  const FrameTasks& tasks, const FrameSetup& setup, FrameReport& report) {
-  const auto looks = load_looks(shot, setup.scene, assets, frame, frame, report);
+                  const FrameTasks& tasks, const FrameSetup& setup, const std::vector<SurfaceLook>& looks,
+                  const EmptySpace& empty, FrameReport& report) {
   Picture picture;
   if (tasks.from_maps) {
     picture = picture_from_maps(shot, assets, frame, setup, looks, report);
   } else {
-    Composite exposure = take_exposure(shot, assets, frame, report);
+    Composite exposure = take_exposure(shot, assets, frame, setup, empty, report);
     report.amplifications =
         timed(report[Phase::Trace].seconds, [&] { return amplifications_of(shot, frame, exposure.hits); });
     picture = std::move(exposure.picture);

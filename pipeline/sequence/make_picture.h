@@ -5,15 +5,24 @@
 
 #pragma once
 
+#include "pipeline/composite/empty_space.h"
+#include "pipeline/composite/layering.h"
 #include "pipeline/sequence/frame_report.h"
 #include "pipeline/sequence/frame_setup.h"
 #include "pipeline/sequence/shot_assets.h"
 
 namespace lensplane {
 
-/// Makes the files of the picture that `setup` says are wanted. Throws Failure.
+/// Reads what the picture of a frame is made of: images, which are returned, and stars, which `assets` keeps.
+/// Throws Failure (BadInput).
+std::vector<SurfaceLook> load_picture(const Shot& shot, ShotAssets& assets, int frame,
+                                      const FrameSetup& setup, FrameReport& report);
+
+/// Makes the files of the picture that `setup` says are wanted. `looks`: from load_picture(); `empty`: what
+/// the frame's maps know. Throws Failure.
 void make_picture(const Shot& shot, const ColourConfig& colours, ShotAssets& assets, int frame,
-                  const FrameTasks& tasks, const FrameSetup& setup, FrameReport& report);
+                  const FrameTasks& tasks, const FrameSetup& setup, const std::vector<SurfaceLook>& looks,
+                  const EmptySpace& empty, FrameReport& report);
 
 /// The amplification that a picture's header keeps: those of a frame that is done already.
 std::vector<Amplification> kept_amplifications(const Shot& shot, int frame);

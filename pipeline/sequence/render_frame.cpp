@@ -17,19 +17,17 @@ FrameReport render_frame(const Shot& shot, const ColourConfig& colours, ShotAsse
     const bool maps_done = setup.maps.empty() && setup.data.empty();
     report.already_done = maps_done && !setup.picture;
     FrameReport of_maps;
-    const auto maps = [&] {
-      if (!maps_done) make_maps(shot, frame, setup, of_maps);
-    };
-    const auto picture = [&] {
-      if (setup.picture) make_picture(shot, colours, assets, frame, tasks, setup, report);
-    };
-    if (tasks.from_maps) {
-      maps();
-      picture();
-    } else {
-      side_by_side(maps, picture);
-    }
+    EmptySpace empty;
+    std::vector<SurfaceLook> looks;
+    side_by_side(
+        [&] {
+          if (!maps_done) empty = make_maps(shot, frame, setup, of_maps);
+        },
+        [&] {
+          if (setup.picture) looks = load_picture(shot, assets, frame, setup, report);
+        });
     add_costs(of_maps, report);
+    if (setup.picture) make_picture(shot, colours, assets, frame, tasks, setup, looks, empty, report);
     if (tasks.picture && !setup.picture) report.amplifications = kept_amplifications(shot, frame);
   });
   return report;

@@ -10,6 +10,7 @@
 
 #include "pipeline/colour/colour_config.h"
 #include "pipeline/image/display_writer.h"
+#include "tests/end_to_end/read_picture.h"
 #include "tests/end_to_end/run_program.h"
 
 namespace lensplane {
@@ -21,10 +22,7 @@ constexpr const char* kConfig = LENSPLANE_SOURCE_DIR "/pipeline/colour/lensplane
 
 /// Largest difference of two 16-bit pictures, in codes.
 int largest_difference(const std::filesystem::path& a, const std::filesystem::path& b) {
-  OIIO::ImageBuf left(a.string()), right(b.string());
-  for (OIIO::ImageBuf* image :
-       {&left, &right})  // from the disk, not from a cache of earlier files of this name
-    EXPECT_TRUE(image->read(0, 0, true, OIIO::TypeDesc::FLOAT));
+  const OIIO::ImageBuf left = read_picture(a), right = read_picture(b);
   EXPECT_EQ(left.nativespec().format, OIIO::TypeDesc::UINT16);
   EXPECT_EQ(right.nativespec().format, OIIO::TypeDesc::UINT16);
   EXPECT_EQ(left.spec().width, right.spec().width);

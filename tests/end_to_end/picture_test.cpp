@@ -2,22 +2,16 @@
 //
 // What whole shots look like, held against other programs and against the textures that they show.
 
-#include <OpenImageIO/imagebuf.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "tests/end_to_end/read_picture.h"
 #include "tests/end_to_end/run_program.h"
 
 namespace lensplane {
 namespace {
-
-OIIO::ImageBuf read(const std::filesystem::path& path) {
-  OIIO::ImageBuf image(path.string());
-  EXPECT_TRUE(image.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << path;
-  return image;
-}
 
 /// A smooth plate: single waves across the frame, so that filters of different widths agree.
 void write_smooth_plate(const std::filesystem::path& path, int width, int height) {
@@ -57,8 +51,8 @@ output: {directory: ., image: {type: float}}
                    "--st_warp:filter=triangle:flip_t=1", "-o", (folder / "st_warp.exr").string()});
   ASSERT_EQ(theirs.exit_code, 0) << theirs.err;
 
-  const OIIO::ImageBuf a = read(folder / "warp.0001.exr"), b = read(folder / "st_warp.exr"),
-                       map = read(folder / "warp.bg.map.0001.exr");
+  const OIIO::ImageBuf a = read_picture(folder / "warp.0001.exr"), b = read_picture(folder / "st_warp.exr"),
+                       map = read_picture(folder / "warp.bg.map.0001.exr");
   int compared = 0;
   double moved = 0;
   for (int y = 1; y < 299; ++y) {
@@ -118,7 +112,7 @@ trace: {method: kishi}
 output: {directory: ., image: {type: float}, review: none}
 )");
   ASSERT_EQ(lensplane({"render", shot.string(), "--quiet"}).err, "");
-  const OIIO::ImageBuf texture = read(LENSPLANE_SOURCE_DIR "/textures/earth_day.jpg");
+  const OIIO::ImageBuf texture = read_picture(LENSPLANE_SOURCE_DIR "/textures/earth_day.jpg");
   const double degree = std::acos(-1.0) / 180;
   // Frame, tilt about x, turn about y.
   const std::array<std::array<double, 3>, 3> views = {{{1, 0, 0}, {2, 0, -80}, {3, 30, 100}}};
@@ -129,7 +123,7 @@ output: {directory: ., image: {type: float}, review: none}
   int seen = 0;
   for (const auto& [frame, tilt, turn] : views) {
     const OIIO::ImageBuf picture =
-        read(folder / ("earth.000" + std::to_string(static_cast<int>(frame)) + ".exr"));
+        read_picture(folder / ("earth.000" + std::to_string(static_cast<int>(frame)) + ".exr"));
     for (const Landmark& place : landmarks) {
       // The place on a unit globe, longitude 0 towards +z, then tilted about x and turned about y.
       const double lon = place.longitude * degree, lat = place.latitude * degree, a = tilt * degree,
@@ -178,7 +172,7 @@ output: {directory: ., image: {type: float}, review: none}
   ASSERT_EQ(lensplane({"render", shot.string(), "--quiet"}).err, "");
   const float expected[4][3] = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1}};  // ahead, left, behind, right
   for (int frame = 1; frame <= 4; ++frame) {
-    const OIIO::ImageBuf picture = read(folder / ("sky.000" + std::to_string(frame) + ".exr"));
+    const OIIO::ImageBuf picture = read_picture(folder / ("sky.000" + std::to_string(frame) + ".exr"));
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(picture.getchannel(4, 4, 0, c), expected[frame - 1][c], 1e-5) << frame;
   }
@@ -201,8 +195,8 @@ trace: {method: kishi}
 output: {directory: out, image: {type: float}}
 )");
   EXPECT_EQ(lensplane({"render", shot.string(), "-f", "5-6", "--quiet"}).err, "");
-  EXPECT_NEAR(read(folder / "out/plate.0005.exr").getchannel(4, 4, 0, 0), 0.5, 1e-6);
-  EXPECT_NEAR(read(folder / "out/plate.0006.exr").getchannel(4, 4, 0, 0), 0.6, 1e-6);
+  EXPECT_NEAR(read_picture(folder / "out/plate.0005.exr").getchannel(4, 4, 0, 0), 0.5, 1e-6);
+  EXPECT_NEAR(read_picture(folder / "out/plate.0006.exr").getchannel(4, 4, 0, 0), 0.6, 1e-6);
   const ProgramResult hole = lensplane({"render", shot.string(), "--quiet"});
   EXPECT_EQ(hole.exit_code, 2);
   EXPECT_EQ(hole.err, shot.string() + ":5:41: layers.bg.image: " + (folder / "bg.0007.exr").string() +
@@ -222,8 +216,8 @@ trace: {method: kishi}
 output: {directory: out}
 )");
   EXPECT_EQ(lensplane({"render", shot.string(), "--quiet", "--threads", "2"}).exit_code, 2);
-  const OIIO::ImageBuf picture = read(folder / "out/beside.0001.exr"),
-                       map = read(folder / "out/beside.bg.map.0001.exr");
+  const OIIO::ImageBuf picture = read_picture(folder / "out/beside.0001.exr"),
+                       map = read_picture(folder / "out/beside.bg.map.0001.exr");
   for (int y = 0; y < 1000; y += 37) {
     for (int x = 0; x < 1500; x += 41) {
       ASSERT_EQ(map.getchannel(x, y, 0, 2), 1.0F);

@@ -2,14 +2,13 @@
 //
 // Shots by the method `planes`: their data files, their plan, and single rays of them.
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagecache.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/end_to_end/read_picture.h"
 #include "tests/end_to_end/run_program.h"
 
 namespace lensplane {
@@ -57,16 +56,8 @@ struct ShotFolder {
   }
 };
 
-OIIO::ImageBuf read(const std::filesystem::path& path) {
-  // OpenImageIO remembers the headers of files that it has read; some of ours are written twice.
-  OIIO::ImageCache::create()->invalidate(OIIO::ustring(path.string()), true);
-  OIIO::ImageBuf image(path.string());
-  EXPECT_TRUE(image.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << path;
-  return image;
-}
-
 std::vector<std::string> channels_of(const std::filesystem::path& path) {
-  std::vector<std::string> names = read(path).spec().channelnames;
+  std::vector<std::string> names = read_picture(path).spec().channelnames;
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -97,8 +88,8 @@ TEST(DataFiles, HoldThePassesAskedForAndOnlyThose) {
 TEST(DataFiles, HaveTheWindowsAndTheHeaderOfTheMap) {
   const ShotFolder shot;
   shot.map({kPasses, "camera.overscan=6"});
-  const OIIO::ImageBuf data = read(shot.out("p.sky.data.1001.exr")),
-                       map = read(shot.out("p.sky.map.1001.exr"));
+  const OIIO::ImageBuf data = read_picture(shot.out("p.sky.data.1001.exr")),
+                       map = read_picture(shot.out("p.sky.map.1001.exr"));
   const OIIO::ImageSpec &a = data.spec(), &b = map.spec();
   EXPECT_EQ(a.width, 212);
   EXPECT_EQ(a.x, -6);
@@ -154,7 +145,7 @@ TEST(DataFiles, AreMadeWhenTheyAreNotThereOrNotRight) {
 TEST(DataFiles, AreOutputsLikeTheOthers) {
   const ShotFolder shot;
   shot.run("map", {"-f", "1001", "--quiet", "--proxy", "2", "--set", kPasses});
-  EXPECT_EQ(read(shot.out("proxy2/p.sky.data.1001.exr")).spec().width, 100);
+  EXPECT_EQ(read_picture(shot.out("proxy2/p.sky.data.1001.exr")).spec().width, 100);
   EXPECT_FALSE(std::filesystem::exists(shot.out("p.sky.data.1001.exr")));
   const ProgramResult refused =
       lensplane({"render", shot.shot, "--set", "layers.sky.image=out/p.earth.data.1001.exr"});
@@ -165,8 +156,8 @@ TEST(DataFiles, AreOutputsLikeTheOthers) {
 TEST(DataFiles, WhatLiesAtInfinityHasTheLargestDepth) {
   const ShotFolder shot;
   shot.map({"output.data=[depth, direction]"});
-  const OIIO::ImageBuf sky = read(shot.out("p.sky.data.1001.exr")),
-                       map = read(shot.out("p.sky.map.1001.exr"));
+  const OIIO::ImageBuf sky = read_picture(shot.out("p.sky.data.1001.exr")),
+                       map = read_picture(shot.out("p.sky.map.1001.exr"));
   ASSERT_EQ(value_at(map, "B", 3, 3), 1);
   EXPECT_EQ(value_at(sky, "depth.z", 3, 3), std::numeric_limits<float>::max());
   const double x = value_at(sky, "dir.x", 3, 3), y = value_at(sky, "dir.y", 3, 3),
@@ -185,8 +176,8 @@ TEST(Probe, AgreesWithTheMapAndTheDataFiles) {
     EXPECT_EQ(json["in_frame"], true);
     for (const Json& layer : json["layers"]) {
       const std::string name = layer["layer"];
-      const OIIO::ImageBuf map = read(shot.out("p." + name + ".map.1001.exr")),
-                           data = read(shot.out("p." + name + ".data.1001.exr"));
+      const OIIO::ImageBuf map = read_picture(shot.out("p." + name + ".map.1001.exr")),
+                           data = read_picture(shot.out("p." + name + ".data.1001.exr"));
       const bool hit = layer["outcome"] == "hit";
       EXPECT_EQ(value_at(map, "B", x, y), hit ? 1 : 0) << name << x;
       EXPECT_NEAR(value_at(map, "R", x, y), layer["s"].get<double>(), 1e-7) << name << x;

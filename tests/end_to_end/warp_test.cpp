@@ -2,24 +2,18 @@
 //
 // Pictures from maps on disk: lensplane warp and lensplane comp.
 
-#include <OpenImageIO/imagebuf.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "tests/end_to_end/read_picture.h"
 #include "tests/end_to_end/run_program.h"
 
 namespace lensplane {
 namespace {
 
 using testing::HasSubstr;
-
-OIIO::ImageBuf read(const std::filesystem::path& path) {
-  OIIO::ImageBuf image(path.string());
-  EXPECT_TRUE(image.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << path;
-  return image;
-}
 
 /// A smooth plate: single waves across the frame, so that filters of different widths agree.
 void write_smooth_plate(const std::filesystem::path& path, int width, int height, OIIO::TypeDesc type) {
@@ -81,9 +75,9 @@ TEST(Comp, MakesFromTheMapsWhatRenderTraces) {
   write_smooth_plate(folder / "plate.exr", 480, 360, OIIO::TypeDesc::FLOAT);
   const auto shot = folder.write("warp.yaml", kShot);
   ASSERT_EQ(lensplane({"render", shot.string(), "--quiet"}).err, "");
-  const OIIO::ImageBuf traced = read(folder / "out/warp.0001.exr");
+  const OIIO::ImageBuf traced = read_picture(folder / "out/warp.0001.exr");
   ASSERT_EQ(lensplane({"comp", shot.string(), "--quiet"}).err, "");
-  const OIIO::ImageBuf composed = read(folder / "out/warp.0001.exr");
+  const OIIO::ImageBuf composed = read_picture(folder / "out/warp.0001.exr");
   EXPECT_EQ(composed.spec().x, -4);
   EXPECT_EQ(composed.spec().get_string_attribute("lensplane:plan"), "from maps");
   // All but the ball's limb, whose circle is some 300 pixels long, and the lens's few pixels of other images.
@@ -95,10 +89,10 @@ TEST(Comp, MakesFromTheMapsWhatRenderTraces) {
   for (const char* layer : {"bg", "ball"})
     std::filesystem::remove(folder / (std::string("out/warp.") + layer + ".data.0001.exr"));
   ASSERT_EQ(lensplane({"comp", shot.string(), "--quiet"}).err, "");
-  EXPECT_LT(count_different(traced, read(folder / "out/warp.0001.exr")), 900);
+  EXPECT_LT(count_different(traced, read_picture(folder / "out/warp.0001.exr")), 900);
   // A map with a hole painted into it shows what is behind.
   const auto map_path = folder / "out/warp.ball.map.0001.exr";
-  OIIO::ImageBuf map = read(map_path);
+  OIIO::ImageBuf map = read_picture(map_path);
   int painted = 0;
   for (OIIO::ImageBuf::Iterator<float> p(map); !p.done(); ++p) {
     painted += p[2] > 0;
@@ -107,7 +101,7 @@ TEST(Comp, MakesFromTheMapsWhatRenderTraces) {
   EXPECT_GT(painted, 3000);
   ASSERT_TRUE(map.write(map_path.string(), OIIO::TypeDesc::FLOAT));
   ASSERT_EQ(lensplane({"comp", shot.string(), "--quiet", "--set", "output.review=none"}).err, "");
-  EXPECT_GT(count_different(traced, read(folder / "out/warp.0001.exr")), painted / 2);
+  EXPECT_GT(count_different(traced, read_picture(folder / "out/warp.0001.exr")), painted / 2);
   // Render knows that this is not its picture.
   EXPECT_THAT(lensplane({"render", shot.string()}).out, testing::Not(HasSubstr("already done")));
 }
@@ -152,11 +146,12 @@ TEST(Warp, IdentityGivesTheImageBackInItsOwnColours) {
                            "--filter", filter})
                     .err,
                 "");
-      EXPECT_LT(largest_difference(read(folder / name), read(out)), exr ? 1e-5 : 3.0 / 65535)
+      EXPECT_LT(largest_difference(read_picture(folder / name), read_picture(out)), exr ? 1e-5 : 3.0 / 65535)
           << name << " " << filter;
     }
   }
-  EXPECT_EQ(read(folder / "noneimage.exr").spec().get_string_attribute("colorInteropID"), "lin_ap1_scene");
+  EXPECT_EQ(read_picture(folder / "noneimage.exr").spec().get_string_attribute("colorInteropID"),
+            "lin_ap1_scene");
 }
 
 TEST(Warp, TheOriginMayLieOnTopAndHalfMapsAreWarnedOf) {
@@ -170,9 +165,9 @@ TEST(Warp, TheOriginMayLieOnTopAndHalfMapsAreWarnedOf) {
   const ProgramResult result = lensplane(top);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.err, HasSubstr("map.exr: its coordinates are half floats"));
-  EXPECT_LT(largest_difference(read(folder / "image.exr"), read(folder / "out.exr")), 5e-3);
+  EXPECT_LT(largest_difference(read_picture(folder / "image.exr"), read_picture(folder / "out.exr")), 5e-3);
   lensplane(words);
-  EXPECT_GT(largest_difference(read(folder / "image.exr"), read(folder / "out.exr")), 0.1);
+  EXPECT_GT(largest_difference(read_picture(folder / "image.exr"), read_picture(folder / "out.exr")), 0.1);
 }
 
 /// Our own map and data file applied by warp: what oiiotool makes with the map.
@@ -188,7 +183,8 @@ TEST(Warp, AppliesOurMapsAsOiiotoolDoes) {
                          (folder / "theirs.exr").string()})
                 .exit_code,
             0);
-  const OIIO::ImageBuf ours = read(out), theirs = read(folder / "theirs.exr"), st = read(map);
+  const OIIO::ImageBuf ours = read_picture(out), theirs = read_picture(folder / "theirs.exr"),
+                       st = read_picture(map);
   int compared = 0;
   for (int y = 0; y < 180; ++y) {
     for (int x = 0; x < 240; ++x) {

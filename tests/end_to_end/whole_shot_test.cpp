@@ -2,7 +2,6 @@
 //
 // A small shot with everything in it: stars, a ring with a shadow, a card, a night, a shutter and a glow.
 
-#include <OpenImageIO/imagebuf.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "tests/end_to_end/read_picture.h"
 #include "tests/end_to_end/run_program.h"
 
 namespace lensplane {
@@ -60,12 +60,6 @@ trace: {tolerance: 0.1 px}
 output: {directory: out, image: {type: float}, review: none}
 )";
 
-OIIO::ImageBuf read(const std::filesystem::path& path) {
-  OIIO::ImageBuf image(path.string());
-  EXPECT_TRUE(image.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << path;
-  return image;
-}
-
 /// A picture by its colour at (column, row).
 void write_picture(const std::filesystem::path& path, int width, int height,
                    const std::function<std::array<float, 4>(int, int)>& colour) {
@@ -111,7 +105,7 @@ OIIO::ImageBuf rendered(const TemporaryFolder& folder, const std::string& shot,
   for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
   const ProgramResult result = lensplane(words);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  return read(folder / "other/whole.0001.exr");
+  return read_picture(folder / "other/whole.0001.exr");
 }
 
 TEST(WholeShot, RendersWithEveryPartSeen) {
@@ -120,7 +114,7 @@ TEST(WholeShot, RendersWithEveryPartSeen) {
   const ProgramResult result = lensplane({"render", shot});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
-  const OIIO::ImageBuf picture = read(folder / "out/whole.0001.exr");
+  const OIIO::ImageBuf picture = read_picture(folder / "out/whole.0001.exr");
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 80; ++x) {
       for (int c = 0; c < 4; ++c) {
@@ -212,7 +206,7 @@ TEST(WholeShot, CompDrawsStarsAndHidesThem) {
     words.insert(words.end(), plain.begin(), plain.end());
     const ProgramResult result = lensplane(words);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    return read(folder / "out/whole.0001.exr");
+    return read_picture(folder / "out/whole.0001.exr");
   };
   const OIIO::ImageBuf by_rays = run({"render", shot});
   const OIIO::ImageBuf by_maps = run({"comp", shot, "--redo"});

@@ -33,7 +33,7 @@ TEST(RayBundle, HoldsForEveryRay) {
     const RayBundle bundle = bundle_of(*rays);
     const Vec3 point(30 * normal(random), 30 * normal(random), 30 * normal(random));
     const auto [from, to] = bundle.along(point);
-    const double distance = bundle.distance_from(point);
+    const double distance = bundle.distance_from(point, bundle.along(point));
     known += distance > 0 ? 1 : 0;
     for (int i = 0; i < kBatchSize; ++i) {
       const Vec3 way = point - rays->start.get(i), direction = rays->direction.get(i);
@@ -54,7 +54,7 @@ TEST(RayBundle, OfOneRayIsExact) {
   const double along = way.dot(direction);
   EXPECT_NEAR(bundle.along(point).first, along, 1e-12);
   EXPECT_NEAR(bundle.along(point).second, along, 1e-12);
-  EXPECT_NEAR(bundle.distance_from(point), (way - direction * along).length(), 1e-12);
+  EXPECT_NEAR(bundle.distance_from(point, bundle.along(point)), (way - direction * along).length(), 1e-12);
 }
 
 TEST(RayBundle, BallsHoldWhatLiesAlongTheRays) {

@@ -7,6 +7,7 @@
 
 #include "pipeline/composite/locator.h"
 #include "pipeline/composite/star_layer.h"
+#include "src/lens_map.h"
 #include "tests/src/scenes.h"
 
 namespace lensplane {
@@ -120,6 +121,52 @@ TEST(Compositor, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one.picture.pixels, two.picture.pixels);
   EXPECT_EQ(one.picture.pixels, seven.picture.pixels);
   EXPECT_EQ(one.hits, seven.hits);
+}
+
+/// The paper's sources before the Earth and a ring round it, in a wide frame.
+constexpr int kPixels = 156 * 156;
+Tracer tracer_of_mostly_empty_space() {
+  Scene scene = seed_fig6(150);
+  scene.camera.overscan = 3;
+  scene.camera.fov_rad *= 3;
+  const Basis tilted{{1, 0, 0}, {0, 0.6, 0.8}, {0, -0.8, 0.6}};
+  scene.surfaces.push_back(Ring{{0, 0, -kSeedDistance}, tilted, 1.3e7, 1.6e7});
+  TraceSettings settings;
+  settings.effects.jacobian = true;
+  return {scene, plan_trace(scene, settings)};
+}
+
+TEST(Compositor, LeavesOutDerivativesOnlyWhereNothingIsMet) {
+  const Tracer tracer = tracer_of_mostly_empty_space();
+  const std::vector<SurfaceLook> looks = {{flat(kRed)}, {flat(kBlue)}};
+  const Composite result = composite(tracer, looks, {.max = 1});
+  const std::vector<LensMap> maps = trace_maps(tracer);
+  int met = 0;
+  for (std::size_t i = 0; i < result.picture.pixels.size(); ++i) {
+    const bool meets = maps[0].valid[i] != 0 || maps[1].valid[i] != 0;
+    met += meets;
+    ASSERT_EQ(result.picture.pixels[i][3] != 0, meets) << i;
+  }
+  EXPECT_GT(met, 400);
+  EXPECT_LT(met, kPixels / 4);
+}
+
+TEST(Compositor, TracesNoRayThatIsKnownToMeetNothing) {
+  const Tracer tracer = tracer_of_mostly_empty_space();
+  const std::vector<SurfaceLook> looks = {{flat(kRed)}, {flat(kBlue)}};
+  const int rows = tracer.camera().full_height();
+  EmptySpace empty(tracer.camera());
+  empty.learn(trace_maps(tracer.without_passes()), {0, rows});
+  const Composite unknown = composite(tracer, looks, {}), known = composite(tracer, looks, {}, empty);
+  EXPECT_EQ(known.picture.pixels, unknown.picture.pixels);
+  EXPECT_EQ(known.hits, unknown.hits);
+  EXPECT_EQ(known.refined, unknown.refined);
+  EXPECT_LT(known.rays, unknown.rays - kPixels / 4);
+  // It is taken at its word: of a camera that is said to see nothing only what lies just outside is traced.
+  std::vector<LensMap> nothing = trace_maps(tracer.without_passes());
+  for (LensMap& map : nothing) std::fill(map.valid.begin(), map.valid.end(), 0.0F);
+  empty.learn(nothing, {0, rows});
+  EXPECT_EQ(composite(tracer, looks, {.max = 1}, empty).picture.at(78, 40), (Rgba{0, 0, 0, 0}));
 }
 
 TEST(Compositor, StarsShineThroughWhatIsHalfTransparent) {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/composite/empty_space.h"
+
+#include <cmath>
+
+namespace lensplane {
+
+EmptySpace::EmptySpace(const Camera& camera)
+    : overscan_(camera.overscan),
+      width_(camera.full_width()),
+      height_(camera.full_height()),
+      centres_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), Centre::Unknown) {}
+
+void EmptySpace::learn(const std::vector<LensMap>& maps, RowRange rows) {
+  const std::size_t first = static_cast<std::size_t>(rows.begin) * static_cast<std::size_t>(width_);
+  const std::size_t count =
+      static_cast<std::size_t>(rows.end - rows.begin) * static_cast<std::size_t>(width_);
+  for (std::size_t i = 0; i < count; ++i) centres_[first + i] = Centre::Empty;
+  for (const LensMap& map : maps) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (map.valid[i] != 0) centres_[first + i] = Centre::Seen;
+    }
+  }
+}
+
+EmptySpace::Known EmptySpace::known_of(const TraceBatch& batch) const {
+  Known known = Known::MeetsNothing;
+  for (std::size_t i = 0; i < kBatchSize; ++i) {
+    const Centre centre = at(batch.x[i], batch.y[i]);
+    if (centre == Centre::Seen) return Known::MeetsSomething;
+    if (centre == Centre::Unknown) known = Known::Nothing;
+  }
+  return known;
+}
+
+EmptySpace::Centre EmptySpace::at(double film_x, double film_y) const {
+  const double column = std::floor(film_x) + overscan_, row = std::floor(film_y) + overscan_;
+  if (column < 0 || column >= width_ || row < 0 || row >= height_) return Centre::Unknown;
+  return centres_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                  static_cast<std::size_t>(column)];
+}
+
+}  // namespace lensplane
