@@ -115,7 +115,7 @@ void make_room(int width, int height, const Effects& effects, LensMap& map) {
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   map.width = width;
   map.height = height;
-  for (FloatBuffer* values : {&map.s, &map.t, &map.valid}) values->resize(pixels);
+  for (UnsetVector<float>* values : {&map.s, &map.t, &map.valid}) values->resize(pixels);
   std::size_t pass = 0;
   for (const Channel& channel : kChannels) {
     if (!(effects.*channel.effect)) continue;

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "src/float_buffer.h"
 #include "src/tracer.h"
+#include "src/unset_allocator.h"
 
 namespace lensplane {
 
@@ -17,14 +17,14 @@ namespace lensplane {
 /// infinity) is the largest float.
 struct Pass {
   std::string_view channel;  // "lensing.magnification", ...
-  FloatBuffer values;
+  UnsetVector<float> values;
 };
 
 /// The map of one surface: row by row from the top, the overscan included. Where `valid` is 0, s = t = 0.
 struct LensMap {
   int width = 0;
   int height = 0;
-  FloatBuffer s, t, valid;
+  UnsetVector<float> s, t, valid;
   std::vector<Pass> passes;  // what the plan's effects call for, in the order of kEffectNames
 };
 

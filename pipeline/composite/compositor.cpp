@@ -300,7 +300,8 @@ Picture blank_picture(const Camera& camera) {
                   camera.width,
                   camera.height,
                   {}};
-  picture.pixels.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+  picture.pixels.assign(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height),
+                        {});
   return picture;
 }
 

@@ -38,7 +38,7 @@ std::shared_ptr<const Picture> TileCache::tile(const TileKey& key, const std::fu
   const std::size_t bytes = size_in_bytes(*made);
   const std::lock_guard lock(shelf.mutex);
   if (auto tile = find()) return tile;
-  std::vector<Rgba> spare;
+  UnsetVector<Rgba> spare;
   while (shelf.bytes + bytes > bytes_per_shelf_ && !shelf.entries.empty()) spare = let_oldest_go(shelf);
   if (bytes > bytes_per_shelf_) return made;
   // Memory that is kept for long is used again here, or tiles made in one thread and freed in another would
@@ -53,9 +53,9 @@ std::shared_ptr<const Picture> TileCache::tile(const TileKey& key, const std::fu
   return made;
 }
 
-std::vector<Rgba> TileCache::let_oldest_go(Shelf& shelf) {
+UnsetVector<Rgba> TileCache::let_oldest_go(Shelf& shelf) {
   Entry& oldest = shelf.entries.back();
-  std::vector<Rgba> spare;
+  UnsetVector<Rgba> spare;
   shelf.bytes -= size_in_bytes(*oldest.tile);
   if (oldest.tile.use_count() == 1) {
     std::atomic_thread_fence(std::memory_order_acquire);  // whoever held it has done with it

@@ -64,7 +64,7 @@ class TileCache {
   };
 
   /// Takes a shelf's last entry away; returns its pixels' memory when nobody uses them.
-  static std::vector<Rgba> let_oldest_go(Shelf& shelf);
+  static UnsetVector<Rgba> let_oldest_go(Shelf& shelf);
 
   std::size_t bytes_per_shelf_;
   std::atomic<int> textures_ = 0;

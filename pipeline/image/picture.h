@@ -7,9 +7,9 @@
 #include <array>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "pipeline/image/pixel_windows.h"
+#include "src/unset_allocator.h"
 
 namespace lensplane {
 
@@ -17,7 +17,7 @@ using Rgba = std::array<float, 4>;
 
 /// Pixels row by row from the top. Linear light in the shot's working space, premultiplied by alpha.
 struct Picture : PixelWindows {
-  std::vector<Rgba> pixels;
+  UnsetVector<Rgba> pixels;      // resize() leaves them as memory is
   std::int64_t not_numbers = 0;  // pixels of the file that were NaN or infinite, and were replaced by black
 
   const Rgba& at(int column, int row) const { return pixels[index(column, row)]; }

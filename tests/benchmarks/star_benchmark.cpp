@@ -42,7 +42,7 @@ StarField stars_in_frame(const Scene& scene, int count) {
 
 Picture black(const Camera& camera) {
   Picture picture{camera.width, camera.height, 0, 0, camera.width, camera.height, {}};
-  picture.pixels.resize(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+  picture.pixels.assign(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height), {});
   return picture;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 Picture blank() {
   Picture picture{kFrameWidth, kFrameHeight, 0, 0, kFrameWidth, kFrameHeight, {}};
-  picture.pixels.resize(std::size_t{kFrameWidth} * kFrameHeight);
+  picture.pixels.assign(std::size_t{kFrameWidth} * kFrameHeight, {});
   return picture;
 }
 

@@ -87,7 +87,7 @@ Truth true_picture(const Tracer& tracer, const Texture& plate) {
   const int lines = (height + 2 * kReach) * kTruthRays;
   Truth truth;
   truth.by_box = {width, height, 0, 0, width, height, {}};
-  truth.by_box.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  truth.by_box.pixels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), {});
   truth.by_pixel_filter = truth.by_box;
   // Rows in blocks, so that the lines between them need not all be kept.
   constexpr int kBlock = 8;

@@ -17,7 +17,7 @@ Picture filled(int width, int height, const Rgba& colour) {
           0,
           width,
           height,
-          std::vector<Rgba>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), colour)};
+          UnsetVector<Rgba>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), colour)};
 }
 
 /// A single bright pixel on black.

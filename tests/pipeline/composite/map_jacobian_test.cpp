@@ -108,7 +108,7 @@ TracedMap traced(const Scene& scene) {
   TraceSettings settings;
   settings.effects.jacobian = true;
   LensMap map = trace_maps(Tracer(scene, plan_trace(scene, settings))).front();
-  const auto copy = [](const FloatBuffer& values) {
+  const auto copy = [](const UnsetVector<float>& values) {
     return std::vector<float>(values.begin(), values.end());
   };
   const auto pass = [&](std::size_t k) { return copy(map.passes[k].values); };

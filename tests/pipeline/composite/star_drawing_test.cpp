@@ -15,7 +15,8 @@ namespace {
 
 Picture black(int width, int height, int overscan = 0) {
   Picture picture{width + 2 * overscan, height + 2 * overscan, -overscan, -overscan, width, height, {}};
-  picture.pixels.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+  picture.pixels.assign(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height),
+                        {});
   return picture;
 }
 

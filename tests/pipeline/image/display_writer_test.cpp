@@ -55,7 +55,7 @@ TEST(DisplayWriter, SixteenBitsAreRoundedAndClamped) {
 
 TEST(DisplayWriter, FilesSayWhatTheirColoursAre) {
   const TemporaryFolder folder;
-  const Picture picture{8, 4, 0, 0, 8, 4, std::vector<Rgba>(32, Rgba{0.5F, 0.25F, 0.1F, 1})};
+  const Picture picture{8, 4, 0, 0, 8, 4, UnsetVector<Rgba>(32, Rgba{0.5F, 0.25F, 0.1F, 1})};
   const auto icc_size = [](const std::filesystem::path& path) {
     const auto input = OIIO::ImageInput::open(path.string());
     const auto* profile = input->spec().find_attribute("ICCProfile");
@@ -77,7 +77,7 @@ TEST(DisplayWriter, FilesSayWhatTheirColoursAre) {
 
 TEST(DisplayWriter, ParametersComeBackFromWholeFilesOnly) {
   const TemporaryFolder folder;
-  const Picture picture{40, 30, 0, 0, 40, 30, std::vector<Rgba>(1200, Rgba{0.5F, 0.25F, 0.1F, 1})};
+  const Picture picture{40, 30, 0, 0, 40, 30, UnsetVector<Rgba>(1200, Rgba{0.5F, 0.25F, 0.1F, 1})};
   for (const char* name : {"a.png", "a.tif"}) {
     const auto path = folder / name;
     write_display(path, picture, 16, {"ABC123"});

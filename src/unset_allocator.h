@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Memory for maps: floats that are all written before they are read. Their first value is whatever memory
-// holds, so that no time is spent on zeros, and each thread is the first to touch what it writes.
+// Memory for maps and pictures: numbers that are all written before they are read. Their first value is
+// whatever memory holds, so that no time is spent on zeros, and each thread is the first to touch what it
+// writes.
 
 #pragma once
 
@@ -32,6 +33,7 @@ struct UnsetAllocator : std::allocator<T> {
   }
 };
 
-using FloatBuffer = std::vector<float, UnsetAllocator<float>>;
+template <class T>
+using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 
 }  // namespace lensplane
