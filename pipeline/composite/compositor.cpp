@@ -9,6 +9,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "pipeline/composite/edge_finder.h"
@@ -129,10 +130,10 @@ class TileTaker {
   TileCounts take(const Tile& tile, Picture& picture) {
     tile_ = tile;
     counts_ = {std::vector<double>(points_.size(), 0.0), 0, 0};
-    CentreGrid grid(tracer_.surfaces(), tile.width, tile.height);
-    trace_centres(grid);
-    std::vector<EdgePixel> edge_pixels = look_at_centres(grid, picture);
-    look_at_edges(edge_pixels, picture);
+    if (const std::optional<CentreGrid> grid = trace_centres()) {
+      std::vector<EdgePixel> edge_pixels = look_at_centres(*grid, picture);
+      look_at_edges(edge_pixels, picture);
+    }
     return std::move(counts_);
   }
 
@@ -178,17 +179,22 @@ class TileTaker {
     }
   }
 
-  void trace_centres(CentreGrid& grid) {
-    const auto width = static_cast<std::size_t>(grid.full_width());
+  /// Nothing when none of them meets anything.
+  std::optional<CentreGrid> trace_centres() {
+    const auto width = static_cast<std::size_t>(tile_.width + 2),
+               height = static_cast<std::size_t>(tile_.height + 2);
+    std::optional<CentreGrid> grid;
     trace(
-        grid.size(),
+        width * height,
         [&](std::size_t n) { return film(static_cast<int>(n % width) - 1, static_cast<int>(n / width) - 1); },
         [&](TraceBatch& batch) { return sparse_.trace(batch); },
         [&](std::size_t n, std::size_t i) {
+          if (!grid) grid.emplace(tracer_.surfaces(), tile_.width, tile_.height);
           for (std::size_t k = 0; k < points_.size(); ++k) {
-            grid.points(n)[k] = seen_point(batch_.surfaces[k], i);
+            grid->points(n)[k] = seen_point(batch_.surfaces[k], i);
           }
         });
+    return grid;
   }
 
   /// Looks where one ray does; returns the other pixels.
