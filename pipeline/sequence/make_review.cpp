@@ -2,6 +2,10 @@
 
 #include "pipeline/sequence/make_review.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
 #include "pipeline/colour/icc_profile.h"
 #include "pipeline/composite/compositor.h"
 #include "pipeline/composite/locator.h"
@@ -16,11 +20,10 @@ namespace {
 Picture display_window(const Picture& picture) {
   Picture window{picture.display_width, picture.display_height, 0, 0,
                  picture.display_width, picture.display_height, {}};
-  window.pixels.reserve(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
-  for (int row = 0; row < window.height; ++row) {
-    const Rgba* first = &picture.at(-picture.x, row - picture.y);
-    window.pixels.insert(window.pixels.end(), first, first + window.width);
-  }
+  window.pixels.resize(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
+  tbb::parallel_for(0, window.height, [&](int row) {
+    std::copy_n(&picture.at(-picture.x, row - picture.y), window.width, &window.at(0, row));
+  });
   return window;
 }
 
