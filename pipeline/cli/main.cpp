@@ -15,6 +15,7 @@
 #include <string>
 
 #include "pipeline/cli/check.h"
+#include "pipeline/cli/export.h"
 #include "pipeline/cli/plan.h"
 #include "pipeline/cli/probe.h"
 #include "pipeline/cli/render.h"
@@ -41,6 +42,8 @@ void run(const lensplane::Options& options) {
       return lensplane::run_plan(options);
     case lensplane::Command::Probe:
       return lensplane::run_probe(options);
+    case lensplane::Command::Export:
+      return lensplane::run_export(options);
     case lensplane::Command::Warp:
       return lensplane::run_warp(options);
     case lensplane::Command::Render:

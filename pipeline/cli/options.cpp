@@ -26,6 +26,7 @@ Examples:
   lensplane render shot.yaml -f 1001-1010 --proxy 4       ten frames at a quarter of the resolution
   lensplane map shot.yaml --output /tmp/maps              only the STMaps, for another compositor
   lensplane comp shot.yaml                                the picture once more from edited maps
+  lensplane export shot.yaml --to chan                    the camera, as a file for other programs
   lensplane warp shot.bg.map.1001.exr plate.exr out.exr   any STMap, applied to any image
   lensplane render shot.yaml --set camera.fov="2 deg" --set lenses.near.mass="10 Msun"
 
@@ -101,15 +102,20 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App* comp = app.add_subcommand("comp", "the picture from the maps on disk, edited ones, for example");
   CLI::App* warp = app.add_subcommand("warp", "apply any STMap to any image");
   CLI::App* probe = app.add_subcommand("probe", "one film position in full");
-  const std::pair<CLI::App*, Command> commands[] = {{check, Command::Check},   {plan, Command::Plan},
-                                                    {render, Command::Render}, {map, Command::Map},
-                                                    {comp, Command::Comp},     {probe, Command::Probe}};
+  CLI::App* exporting = app.add_subcommand("export", "the shot's camera for other programs");
+  const std::pair<CLI::App*, Command> commands[] = {
+      {check, Command::Check}, {plan, Command::Plan},   {render, Command::Render},   {map, Command::Map},
+      {comp, Command::Comp},   {probe, Command::Probe}, {exporting, Command::Export}};
   for (const auto& [app_of, command] : commands) {
     add_common(*app_of, options);
     app_of->footer(kExamples);
     app_of->callback([&options, command = command] { options.command = command; });
   }
   for (CLI::App* command : {render, map, comp}) add_rendering(*command, options);
+  exporting->add_option("--to", options.to, "chan: position, rotation and field of view of every frame")
+      ->required()
+      ->check(CLI::IsMember({"chan"}));
+  exporting->add_option("--output", options.output, "the folder for the file")->check(refuse_empty);
   for (CLI::App* command : {plan, probe}) command->add_flag("--json", options.json, "for programs: as JSON");
   warp->callback([&options] { options.command = Command::Warp; });
   warp->footer(kExamples);

@@ -12,7 +12,7 @@
 
 namespace lensplane {
 
-enum class Command { Check, Plan, Render, Map, Comp, Warp, Probe };
+enum class Command { Check, Plan, Render, Map, Comp, Warp, Probe, Export };
 
 /// Of lensplane warp.
 struct WarpOptions {
@@ -38,7 +38,8 @@ struct Options {
   bool quiet = false;
   bool redo = false;
   bool json = false;
-  std::string x, y;  // of a probe, as written
+  std::string x, y;         // of a probe, as written
+  std::string to = "chan";  // what is exported
   WarpOptions warp;
 };
 

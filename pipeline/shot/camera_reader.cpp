@@ -159,6 +159,25 @@ GlowTrack read_glow(const Value& glow) {
   return track;
 }
 
+CameraFile read_from(const Value& from, const Value& camera, Projection projection) {
+  if (projection != Projection::Perspective)
+    from.refuse("given for a camera that is not perspective; allowed: with perspective only");
+  for (const char* key : {"position", "look_at", "rotation", "up"}) {
+    if (const auto value = camera.find(key))
+      value->refuse("given together with from; allowed: one of the two");
+  }
+  CameraFile file;
+  Value path = from;
+  if (from.is_map()) {
+    from.only_keys({"file", "unit"});
+    path = from.require("file", "the path of a .chan file");
+    if (const auto unit = from.find("unit")) file.unit = unit->positive(Dimension::Length);
+  }
+  file.path = {path.text(), path.location(), path.key()};
+  file.fov_is_given = camera.find("fov") || camera.find("focal_length");
+  return file;
+}
+
 }  // namespace
 
 CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not_yet) {
@@ -170,12 +189,11 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not
                         .items(2, "[width, height] in pixels, like [1920, 1080]");
   track.width = size[0].integer(1, kMaxResolution);
   track.height = size[1].integer(1, kMaxResolution);
-  if (const auto from = camera.find("from")) {
-    from->text();
-    not_yet.add(*from, "a camera from a file; write position, look_at and fov");
-  } else {
-    track.fov = read_field_of_view(camera, track.projection);
-  }
+  const auto from = camera.find("from");
+  if (from) track.from = read_from(*from, camera, track.projection);
+  if (from && !track.from->path.text.ends_with(".chan"))
+    not_yet.add(*from, "a camera from this; write the path of a .chan file");
+  if (!from || track.from->fov_is_given) track.fov = read_field_of_view(camera, track.projection);
   if (const auto position = camera.find("position"))
     track.position = read_keyed_vector(*position, Dimension::Length);
   track.orientation = read_orientation(camera, names);

@@ -68,6 +68,13 @@ struct Shutter {
   int samples = 1;
 };
 
+/// A file of another program that a camera's position, rotation and field of view are taken from.
+struct CameraFile {
+  LocatedText path;           // .chan
+  double unit = 1;            // metres that one unit of length of the file is
+  bool fov_is_given = false;  // by the shot
+};
+
 struct CameraTrack {
   int width = 0;
   int height = 0;
@@ -78,6 +85,7 @@ struct CameraTrack {
   std::variant<Rotation, LookAt> orientation;
   Shutter shutter;
   std::optional<GlowTrack> glow;
+  std::optional<CameraFile> from;  // of which read_shot() has made the above
 };
 
 struct LensTrack {

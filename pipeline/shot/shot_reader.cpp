@@ -10,6 +10,7 @@
 
 #include "pipeline/image/failure.h"
 #include "pipeline/image/shipped.h"
+#include "pipeline/shot/camera_file.h"
 #include "pipeline/shot/camera_reader.h"
 #include "pipeline/shot/frame_range.h"
 #include "pipeline/shot/layer_files.h"
@@ -234,6 +235,8 @@ Shot read_shot(const std::filesystem::path& path, const std::vector<std::string>
   if (shot.colour.grade) shot.colour.grade->cdl.text = beside_shot(shot.colour.grade->cdl.text);
   if (shot.colour.config) shot.colour.config->text = beside_shot(shot.colour.config->text);
   shot.output.directory = beside_shot(shot.output.directory.string());
+  if (shot.camera.from) shot.camera.from->path.text = beside_shot(shot.camera.from->path.text);
+  read_camera_file(shot);
   return shot;
 }
 
