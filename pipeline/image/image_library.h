@@ -25,9 +25,10 @@ namespace lensplane {
 /// What the library offers; each is what the function of its name is, unless it says more.
 struct ImageLibrary {
   const char* version;  // of the lensplane that it belongs to
-  EncodedImage (*read_image)(const std::filesystem::path&);
-  bool (*is_larger_than_memory)(const std::filesystem::path&);
-  std::shared_ptr<const TiledImage> (*open_tiled_image)(const std::filesystem::path&, std::size_t);
+  EncodedImage (*read_image)(const std::filesystem::path&, const ImageChoice&);
+  bool (*is_larger_than_memory)(const std::filesystem::path&, const ImageChoice&);
+  std::shared_ptr<const TiledImage> (*open_tiled_image)(const std::filesystem::path&, std::size_t,
+                                                        const ImageChoice&);
   StMap (*read_st_map)(const std::filesystem::path&, std::optional<StOrigin>);
   MapData (*read_map_data)(const std::filesystem::path&, const StMap&);
   /// What an image's header says under a name; empty when it says nothing, or cannot be read.

@@ -6,8 +6,8 @@
 
 namespace lensplane {
 
-EncodedImage read_image(const std::filesystem::path& path) {
-  return image_library().read_image(path);
+EncodedImage read_image(const std::filesystem::path& path, const ImageChoice& choice) {
+  return image_library().read_image(path, choice);
 }
 
 std::string read_interop_id(const std::filesystem::path& path) {

@@ -9,15 +9,17 @@
 #include <string>
 
 #include "pipeline/image/encoded_image.h"
+#include "pipeline/image/image_choice.h"
 
 namespace lensplane {
 
 /// Larger images are refused: they would not fit into memory as they are worked with.
 inline constexpr std::size_t kMaxImagePixels = std::size_t{1} << 29;
 
-/// Reads the first part of an image. EXR and whatever else OpenImageIO reads. Throws Failure (BadInput) with
-/// the path and the reason.
-EncodedImage read_image(const std::filesystem::path& path);
+/// Reads an image. EXR and whatever else OpenImageIO reads. A layer without an alpha of its own has the
+/// part's. Throws Failure (BadInput) with the path and the reason: which layers and parts there are, if there
+/// is not the one that is chosen.
+EncodedImage read_image(const std::filesystem::path& path, const ImageChoice& choice = {});
 
 /// The colorInteropID that an image says about itself, read from its header alone; empty when it says none,
 /// or cannot be read.

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/image/encoded_image.h"
+#include "pipeline/image/image_choice.h"
 
 namespace lensplane {
 
@@ -21,7 +22,7 @@ inline constexpr std::size_t kMostPixelsInMemory = std::size_t{1} << 27;
 
 /// Whether an image has more pixels than kMostPixelsInMemory. Reads the header only. Throws Failure
 /// (BadInput).
-bool is_larger_than_memory(const std::filesystem::path& path);
+bool is_larger_than_memory(const std::filesystem::path& path, const ImageChoice& choice = {});
 
 /// Safe to use from many threads.
 class TiledImage {
@@ -45,7 +46,7 @@ class TiledImage {
 /// Throws Failure (BadInput) that names `maketx` when the file is not tiled, or has no pyramid, and with the
 /// reason when it cannot be used: pixels outside of its display window, or no colours in it. `cache_bytes`:
 /// what the ImageCache may hold.
-std::shared_ptr<const TiledImage> open_tiled_image(const std::filesystem::path& path,
-                                                   std::size_t cache_bytes);
+std::shared_ptr<const TiledImage> open_tiled_image(const std::filesystem::path& path, std::size_t cache_bytes,
+                                                   const ImageChoice& choice = {});
 
 }  // namespace lensplane

@@ -18,7 +18,7 @@ namespace {
 
 }  // namespace
 
-EncodedImage read_image(const std::filesystem::path& path) {
+EncodedImage read_image(const std::filesystem::path& path, const ImageChoice& choice) {
   std::error_code status;
   if (!std::filesystem::exists(path, status)) {
     throw Failure(ExitCode::BadInput, fmt::format("{}: no such image", path.string()));
@@ -28,15 +28,17 @@ EncodedImage read_image(const std::filesystem::path& path) {
       1;  // else 8-bit colours would be premultiplied before they are linear
   const auto input = OIIO::ImageInput::open(path.string(), &as_stored);
   if (!input) refuse(path, OIIO::geterror());
-  const OIIO::ImageSpec& spec = input->spec();
-  const PixelLayout layout = pixel_layout(path, spec, input->format_name());
+  const int part = part_of(path, *input, choice);
+  const OIIO::ImageSpec spec = input->spec(part);
+  const PixelLayout layout = pixel_layout(path, spec, input->format_name(), choice);
   if (spec.image_pixels() > kMaxImagePixels) {
     refuse(path, fmt::format("{} x {} pixels; allowed: up to {} million", spec.width, spec.height,
                              kMaxImagePixels >> 20));
   }
-  std::vector<std::byte> file(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels) *
+  std::vector<std::byte> file(spec.image_pixels() * static_cast<std::size_t>(layout.channels) *
                               size_of(layout.type));
-  if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(layout.type), file.data()))
+  const int end = layout.first + layout.channels;
+  if (!input->read_image(part, 0, layout.first, end, oiio_type(layout.type), file.data()))
     refuse(path, input->geterror());
   return packed(layout, windows_of(spec), file);
 }

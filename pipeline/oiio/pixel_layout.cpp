@@ -25,18 +25,53 @@ SampleType nearest_type(OIIO::TypeDesc format) {
   return SampleType::Float;
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw Failure(ExitCode::BadInput, fmt::format("{}: cannot be read as an image: {}", path.string(), reason));
+}
+
+/// The channel that is called `name` (one capital letter) in a layer, or in none; negative without.
+int channel_of(const OIIO::ImageSpec& spec, const std::string& layer, char name) {
+  const std::string before = layer.empty() ? "" : layer + ".";
+  const int capital = spec.channelindex(before + name);
+  if (capital >= 0 || layer.empty()) return capital;
+  return spec.channelindex(before + static_cast<char>(name - 'A' + 'a'));
+}
+
+std::vector<std::string> layers_of(const OIIO::ImageSpec& spec) {
+  std::vector<std::string> layers;
+  for (const std::string& channel : spec.channelnames) {
+    const std::size_t dot = channel.rfind('.');
+    if (dot == std::string::npos) continue;
+    const std::string layer = channel.substr(0, dot);
+    if (std::find(layers.begin(), layers.end(), layer) == layers.end()) layers.push_back(layer);
+  }
+  return layers;
+}
+
 /// Which channels of the file are R, G, B; grey files give the same three times. Nothing when there are none
 /// of these.
-std::optional<std::array<int, 3>> colour_channels(const OIIO::ImageSpec& spec, std::string_view format_name) {
-  const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+std::optional<std::array<int, 3>> colour_channels(const OIIO::ImageSpec& spec, std::string_view format_name,
+                                                  const std::string& layer) {
+  const std::array<int, 3> named = {channel_of(spec, layer, 'R'), channel_of(spec, layer, 'G'),
+                                    channel_of(spec, layer, 'B')};
   if (*std::min_element(named.begin(), named.end()) >= 0) return named;
-  const int grey = spec.channelindex("Y");
+  const int grey = channel_of(spec, layer, 'Y');
   if (grey >= 0) return std::array{grey, grey, grey};
   // In EXR any other name is data; elsewhere it is a format's own name for colours.
   const int without_alpha = spec.nchannels - (spec.alpha_channel >= 0 ? 1 : 0);
-  if (format_name == "openexr" || without_alpha == 0) return std::nullopt;
+  if (!layer.empty() || format_name == "openexr" || without_alpha == 0) return std::nullopt;
   if (without_alpha < 3) return std::array{0, 0, 0};
   return std::array{0, 1, 2};
+}
+
+/// "; its layers: a, b", or nothing without any.
+std::string told_layers(const OIIO::ImageSpec& spec) {
+  const std::vector<std::string> layers = layers_of(spec);
+  return layers.empty() ? "" : fmt::format("; its layers: {}", fmt::join(layers, ", "));
+}
+
+std::string name_of(const OIIO::ImageSpec& part) {
+  return std::string(part.get_string_attribute("oiio:subimagename", part.get_string_attribute("name")));
 }
 
 /// Channels as the file has them to RGBA; `Sample` is as large as a sample, `opaque` is full alpha.
@@ -84,15 +119,38 @@ OIIO::TypeDesc oiio_type(SampleType type) {
 }
 
 PixelLayout pixel_layout(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
-                         std::string_view format_name) {
-  const auto colours = colour_channels(spec, format_name);
+                         std::string_view format_name, const ImageChoice& choice) {
+  const auto colours = colour_channels(spec, format_name, choice.layer);
+  if (!colours && choice.layer.empty()) refuse(path, "it has no channels R, G, B or Y" + told_layers(spec));
   if (!colours) {
-    throw Failure(
-        ExitCode::BadInput,
-        fmt::format("{}: cannot be read as an image: it has no channels R, G, B or Y", path.string()));
+    const std::string told = told_layers(spec);
+    refuse(path, fmt::format("it has no layer \"{}\" with R, G, B or Y{}", choice.layer,
+                             told.empty() ? "; it has no layers" : told));
   }
-  return {spec.nchannels, *colours, spec.alpha_channel, nearest_type(spec.format),
+  const int own_alpha = choice.layer.empty() ? -1 : channel_of(spec, choice.layer, 'A');
+  // OpenImageIO takes any layer's alpha of an EXR for the file's.
+  const int of_part = format_name == "openexr" ? spec.channelindex("A") : spec.alpha_channel;
+  const int alpha = own_alpha >= 0 ? own_alpha : of_part;
+  const auto [least, most] = std::minmax_element(colours->begin(), colours->end());
+  const int first = alpha >= 0 ? std::min(*least, alpha) : *least, last = std::max(*most, alpha);
+  return {first,
+          last - first + 1,
+          {(*colours)[0] - first, (*colours)[1] - first, (*colours)[2] - first},
+          alpha >= 0 ? alpha - first : -1,
+          nearest_type(spec.format),
           spec.get_int_attribute("oiio:UnassociatedAlpha") == 0};
+}
+
+int part_of(const std::filesystem::path& path, OIIO::ImageInput& input, const ImageChoice& choice) {
+  if (choice.part.empty()) return 0;
+  std::vector<std::string> names;
+  for (int part = 0; input.seek_subimage(part, 0); ++part) {
+    names.push_back(name_of(input.spec()));
+    if (names.back() == choice.part || std::to_string(part) == choice.part) return part;
+    if (names.back().empty()) names.back() = std::to_string(part);
+  }
+  input.geterror();  // of the part after the last
+  refuse(path, fmt::format("it has no part \"{}\"; its parts: {}", choice.part, fmt::join(names, ", ")));
 }
 
 EncodedImage packed(const PixelLayout& layout, const PixelWindows& windows,

@@ -31,7 +31,7 @@ std::shared_ptr<OIIO::ImageCache> make_cache(std::size_t bytes) {
 
 class CachedImage final : public TiledImage {
  public:
-  CachedImage(const std::filesystem::path& path, std::size_t cache_bytes);
+  CachedImage(const std::filesystem::path& path, std::size_t cache_bytes, const ImageChoice& choice);
 
   const std::vector<Level>& levels() const override { return levels_; }
   int tile_width() const override { return tile_width_; }
@@ -44,16 +44,21 @@ class CachedImage final : public TiledImage {
   std::vector<Level> levels_;
   int tile_width_ = 0;
   int tile_height_ = 0;
+  int part_ = 0;
   PixelLayout layout_;
 };
 
-CachedImage::CachedImage(const std::filesystem::path& path, std::size_t cache_bytes)
+CachedImage::CachedImage(const std::filesystem::path& path, std::size_t cache_bytes,
+                         const ImageChoice& choice)
     : path_(path.string()), cache_(make_cache(cache_bytes)) {
   const OIIO::ustring name(path_);
   OIIO::ImageSpec spec;
-  if (!cache_->get_imagespec(name, spec)) refuse(path_, cache_->geterror());
+  const auto input = OIIO::ImageInput::open(path_);
+  if (!input) refuse(path_, OIIO::geterror());
+  part_ = part_of(path, *input, choice);
+  if (!cache_->get_imagespec(name, spec, part_)) refuse(path_, cache_->geterror());
   int count = 0;
-  cache_->get_image_info(name, 0, 0, OIIO::ustring("miplevels"), OIIO::TypeDesc::INT, &count);
+  cache_->get_image_info(name, part_, 0, OIIO::ustring("miplevels"), OIIO::TypeDesc::INT, &count);
   // A file without tiles is given as one that is a tile as a whole.
   const std::size_t tile_pixels =
       static_cast<std::size_t>(spec.tile_width) * static_cast<std::size_t>(spec.tile_height);
@@ -69,12 +74,10 @@ CachedImage::CachedImage(const std::filesystem::path& path, std::size_t cache_by
   }
   tile_width_ = spec.tile_width;
   tile_height_ = spec.tile_height;
-  const char* format = nullptr;
-  cache_->get_image_info(name, 0, 0, OIIO::ustring("fileformat"), OIIO::TypeDesc::STRING, &format);
-  layout_ = pixel_layout(path, spec, format ? format : "");
+  layout_ = pixel_layout(path, spec, input->format_name(), choice);
   for (int level = 0; level < count; ++level) {
     OIIO::ImageSpec coarse;
-    if (!cache_->get_imagespec(name, coarse, 0, level)) refuse(path_, cache_->geterror());
+    if (!cache_->get_imagespec(name, coarse, part_, level)) refuse(path_, cache_->geterror());
     levels_.push_back({coarse.width, coarse.height});
   }
 }
@@ -87,8 +90,8 @@ EncodedImage CachedImage::tile(int level, int column, int row) const {
   std::vector<std::byte> file(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                               static_cast<std::size_t>(layout_.channels) * size_of(layout_.type));
   const OIIO::ustring name(path_);
-  if (!cache_->get_pixels(name, 0, level, left, right, top, bottom, 0, 1, oiio_type(layout_.type),
-                          file.data())) {
+  if (!cache_->get_pixels(name, part_, level, left, right, top, bottom, 0, 1, layout_.first,
+                          layout_.first + layout_.channels, oiio_type(layout_.type), file.data())) {
     refuse(path_, cache_->geterror());
   }
   return packed(layout_, {width, height, 0, 0, width, height}, file);
@@ -96,7 +99,7 @@ EncodedImage CachedImage::tile(int level, int column, int row) const {
 
 }  // namespace
 
-bool is_larger_than_memory(const std::filesystem::path& path) {
+bool is_larger_than_memory(const std::filesystem::path& path, const ImageChoice& choice) {
   std::error_code status;
   if (!std::filesystem::exists(path, status)) {
     throw Failure(ExitCode::BadInput, fmt::format("{}: no such image", path.string()));
@@ -106,12 +109,12 @@ bool is_larger_than_memory(const std::filesystem::path& path) {
     throw Failure(ExitCode::BadInput,
                   fmt::format("{}: cannot be read as an image: {}", path.string(), OIIO::geterror()));
   }
-  return input->spec().image_pixels() > kMostPixelsInMemory;
+  return input->spec(part_of(path, *input, choice)).image_pixels() > kMostPixelsInMemory;
 }
 
-std::shared_ptr<const TiledImage> open_tiled_image(const std::filesystem::path& path,
-                                                   std::size_t cache_bytes) {
-  return std::make_shared<CachedImage>(path, cache_bytes);
+std::shared_ptr<const TiledImage> open_tiled_image(const std::filesystem::path& path, std::size_t cache_bytes,
+                                                   const ImageChoice& choice) {
+  return std::make_shared<CachedImage>(path, cache_bytes, choice);
 }
 
 }  // namespace lensplane::oiio

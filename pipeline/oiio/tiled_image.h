@@ -9,8 +9,8 @@
 namespace lensplane::oiio {
 
 /// As pipeline/image/tiled_image.h has them.
-bool is_larger_than_memory(const std::filesystem::path& path);
-std::shared_ptr<const TiledImage> open_tiled_image(const std::filesystem::path& path,
-                                                   std::size_t cache_bytes);
+bool is_larger_than_memory(const std::filesystem::path& path, const ImageChoice& choice);
+std::shared_ptr<const TiledImage> open_tiled_image(const std::filesystem::path& path, std::size_t cache_bytes,
+                                                   const ImageChoice& choice);
 
 }  // namespace lensplane::oiio

@@ -65,8 +65,10 @@ Texture TextureStore::read(const LayerImage& image, Wrap wrap, int frame) const 
     const auto to_working = [this, encoding](const EncodedImage& encoded) {
       return colours_.to_working(encoded, encoding, shot_.colour.working.text);
     };
-    if (!is_larger_than_memory(path)) return Texture(to_working(read_image(path)), wrap);
-    return Texture(TiledTexture(open_tiled_image(path, kFileCacheBytes), to_working, tiles_), wrap);
+    if (!is_larger_than_memory(path, image.choice))
+      return Texture(to_working(read_image(path, image.choice)), wrap);
+    return Texture(TiledTexture(open_tiled_image(path, kFileCacheBytes, image.choice), to_working, tiles_),
+                   wrap);
   });
 }
 
@@ -96,6 +98,8 @@ std::string TextureStore::digest_of(const LayerImage& image, Wrap wrap, int fram
       const ImageEncoding encoding = encoding_of(image, path);
       return Fingerprint()
           .add_file(path)
+          .add(image.choice.layer)
+          .add(image.choice.part)
           .add(colours_.conversion_id(encoding.space, shot_.colour.working.text))
           .add(image.alpha ? static_cast<double>(*image.alpha) : -1.0)
           .add(static_cast<double>(wrap))

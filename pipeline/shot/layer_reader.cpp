@@ -20,8 +20,10 @@ LocatedText located_text(const Value& value) {
 
 LayerImage read_image(const Value& value) {
   if (!value.is_map()) return {located_text(value), std::nullopt, std::nullopt};
-  value.only_keys({"file", "space", "alpha"});
+  value.only_keys({"file", "layer", "part", "space", "alpha"});
   LayerImage image{located_text(value.require("file", "the path of an image")), std::nullopt, std::nullopt};
+  if (const auto layer = value.find("layer")) image.choice.layer = layer->text();
+  if (const auto part = value.find("part")) image.choice.part = part->text();
   if (const auto space = value.find("space")) image.space = located_text(*space);
   if (const auto alpha = value.find("alpha")) {
     constexpr std::array<std::string_view, 3> kNames = {"associated", "straight", "none"};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pipeline/image/exr_format.h"
+#include "pipeline/image/image_choice.h"
 #include "pipeline/shot/keyed.h"
 #include "pipeline/shot/location.h"
 #include "src/plan.h"
@@ -104,6 +105,7 @@ struct LayerImage {
   LocatedText pattern;  // a path, or that of a sequence; see path_of_frame
   std::optional<LocatedText> space;
   std::optional<AlphaKind> alpha;  // absent: as the file says
+  ImageChoice choice = {};
 };
 
 struct PlateLayer {

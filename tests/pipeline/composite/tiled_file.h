@@ -21,15 +21,18 @@ inline OIIO::ImageBuf image_of(const Picture& picture) {
   return image;
 }
 
-/// What `maketx` would make of a picture, in float, with tiles of `tile` x `tile`.
-inline void write_tiled(const std::filesystem::path& path, const Picture& picture, int tile) {
+/// What `maketx` would make of an image, in float, with tiles of `tile` x `tile`.
+inline void write_tiled(const std::filesystem::path& path, const OIIO::ImageBuf& image, int tile) {
   OIIO::ImageSpec configuration;
   configuration.tile_width = configuration.tile_height = tile;
   configuration.tile_depth = 1;
   configuration.set_format(OIIO::TypeDesc::FLOAT);
-  ASSERT_TRUE(OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, image_of(picture),
-                                               path.string(), configuration))
+  ASSERT_TRUE(OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, image, path.string(),
+                                               configuration))
       << OIIO::geterror();
+}
+inline void write_tiled(const std::filesystem::path& path, const Picture& picture, int tile) {
+  write_tiled(path, image_of(picture), tile);
 }
 
 /// Float samples as they are.

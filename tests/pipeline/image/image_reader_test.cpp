@@ -6,6 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
+#include <numeric>
+
 #include "tests/pipeline/expect_failure.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -91,6 +95,98 @@ TEST(ImageReader, RefusesWhatIsMissingOrBrokenByName) {
   const Refusal cut = line_and_code(folder / "cut.exr");
   EXPECT_EQ(cut.code, ExitCode::BadInput);
   EXPECT_EQ(cut.line.find('\n'), std::string::npos);
+}
+
+/// One pixel, whose channels hold 1, 2, 3, ... in the order of `channels`.
+OIIO::ImageSpec spec_of(const std::vector<std::string>& channels) {
+  OIIO::ImageSpec spec(1, 1, static_cast<int>(channels.size()), OIIO::TypeDesc::FLOAT);
+  spec.channelnames = channels;
+  return spec;
+}
+
+std::vector<float> counted(const OIIO::ImageSpec& spec) {
+  std::vector<float> values(static_cast<std::size_t>(spec.nchannels));
+  std::iota(values.begin(), values.end(), 1.0F);
+  return values;
+}
+
+void write_counted(const std::filesystem::path& path, const std::vector<std::string>& channels) {
+  write<float>(path, spec_of(channels), counted(spec_of(channels)));
+}
+
+std::array<float, 4> colour_of(const EncodedImage& image) {
+  std::array<float, 4> colour{};
+  EXPECT_EQ(image.type, SampleType::Float);
+  EXPECT_EQ(image.samples.size(), sizeof colour);
+  std::memcpy(colour.data(), image.samples.data(), sizeof colour);
+  return colour;
+}
+
+using Colour = std::array<float, 4>;
+
+TEST(ImageReader, ReadsTheLayerThatIsChosen) {
+  const TemporaryFolder folder;
+  const auto path = folder / "layers.exr";
+  write_counted(path, {"R", "G", "B", "A", "Z", "diffuse.R", "diffuse.G", "diffuse.B", "View.spec.r",
+                       "View.spec.g", "View.spec.b", "View.spec.a", "mask.Y"});
+  EXPECT_EQ(colour_of(read_image(path)), (Colour{1, 2, 3, 4}));
+  EXPECT_EQ(colour_of(read_image(path, {"diffuse", ""})), (Colour{6, 7, 8, 4}));  // with the part's alpha
+  EXPECT_EQ(colour_of(read_image(path, {"View.spec", ""})), (Colour{9, 10, 11, 12}));
+  EXPECT_EQ(colour_of(read_image(path, {"mask", ""})), (Colour{13, 13, 13, 4}));
+  const Refusal refusal = refusal_of([&] { read_image(path, {"specular", ""}); });
+  EXPECT_EQ(refusal.line, path.string() +
+                              ": cannot be read as an image: it has no layer \"specular\" with R, G, B or Y; "
+                              "its layers: View.spec, diffuse, mask");
+}
+
+TEST(ImageReader, AlphaIsNotThatOfAnotherLayer) {
+  const TemporaryFolder folder;
+  write_counted(folder / "a.exr", {"R", "G", "B", "spec.R", "spec.G", "spec.B", "spec.A"});
+  EXPECT_EQ(colour_of(read_image(folder / "a.exr")), (Colour{1, 2, 3, 1}));
+  EXPECT_FALSE(read_image(folder / "a.exr").has_alpha);
+}
+
+TEST(ImageReader, TellsTheLayersOfAnImageWithoutColoursOfItsOwn) {
+  const TemporaryFolder folder;
+  write_counted(folder / "blender.exr",
+                {"ViewLayer.Combined.R", "ViewLayer.Combined.G", "ViewLayer.Combined.B",
+                 "ViewLayer.Combined.A", "ViewLayer.Depth.Z"});
+  EXPECT_THAT(refusal_of([&] { read_image(folder / "blender.exr"); }).line,
+              HasSubstr("it has no channels R, G, B or Y; its layers: ViewLayer.Combined, ViewLayer.Depth"));
+  EXPECT_EQ(colour_of(read_image(folder / "blender.exr", {"ViewLayer.Combined", ""})), (Colour{1, 2, 3, 4}));
+  EXPECT_THAT(refusal_of([&] {
+                read_image(folder / "blender.exr", {"ViewLayer.Depth", ""});
+              }).line,
+              HasSubstr("no layer \"ViewLayer.Depth\" with R, G, B or Y"));
+}
+
+TEST(ImageReader, ReadsThePartThatIsChosen) {
+  const TemporaryFolder folder;
+  const auto path = folder / "parts.exr";
+  OIIO::ImageSpec specs[] = {spec_of({"R", "G", "B", "A"}),
+                             spec_of({"R", "G", "B", "diffuse.R", "diffuse.G", "diffuse.B"})};
+  specs[0]["oiio:subimagename"] = "beauty";
+  specs[1]["oiio:subimagename"] = "light";
+  const auto output = OIIO::ImageOutput::create(path.string());
+  ASSERT_TRUE(output->open(path.string(), 2, specs));
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, counted(specs[0]).data()));
+  ASSERT_TRUE(output->open(path.string(), specs[1], OIIO::ImageOutput::AppendSubimage));
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, counted(specs[1]).data()));
+  ASSERT_TRUE(output->close());
+  EXPECT_EQ(colour_of(read_image(path)), (Colour{1, 2, 3, 4}));
+  EXPECT_EQ(colour_of(read_image(path, {"", "beauty"})), (Colour{1, 2, 3, 4}));
+  EXPECT_EQ(colour_of(read_image(path, {"", "light"})), (Colour{1, 2, 3, 1}));
+  EXPECT_EQ(colour_of(read_image(path, {"diffuse", "light"})), (Colour{4, 5, 6, 1}));
+  EXPECT_EQ(colour_of(read_image(path, {"diffuse", "1"})), (Colour{4, 5, 6, 1}));
+  EXPECT_THAT(refusal_of([&] {
+                read_image(path, {"", "fog"});
+              }).line,
+              HasSubstr("it has no part \"fog\"; its parts: beauty, light"));
+  write_counted(folder / "one.exr", {"R", "G", "B"});
+  EXPECT_THAT(refusal_of([&] {
+                read_image(folder / "one.exr", {"", "fog"});
+              }).line,
+              HasSubstr("it has no part \"fog\"; its parts: 0"));
 }
 
 }  // namespace

@@ -41,6 +41,27 @@ TEST(TiledImage, TilesAreTheFilesPixels) {
   EXPECT_EQ(float_pixels(image.tile(1, 0, 0)).at(3, 5), (Rgba{6.5F, 10.5F, 0, 0.5F}));
 }
 
+TEST(TiledImage, ReadsTheLayerThatIsChosen) {
+  const TemporaryFolder folder;
+  OIIO::ImageSpec spec(64, 48, 7, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"R", "G", "B", "A", "diffuse.R", "diffuse.G", "diffuse.B"};
+  OIIO::ImageBuf layers(spec);
+  for (OIIO::ImageBuf::Iterator<float> p(layers); !p.done(); ++p) {
+    p[3] = 0.5F;
+    p[4] = static_cast<float>(p.x());
+    p[5] = static_cast<float>(p.y());
+    p[6] = 7;
+  }
+  write_tiled(folder / "layers.exr", layers, 32);
+  const auto image = open_tiled_image(folder / "layers.exr", kCacheBytes, {"diffuse", ""});
+  EXPECT_EQ(float_pixels(image->tile(0, 1, 1)).at(3, 5), (Rgba{35, 37, 7, 0.5F}));
+  EXPECT_EQ(float_pixels(image->tile(1, 0, 0)).at(3, 5), (Rgba{6.5F, 10.5F, 7, 0.5F}));
+  EXPECT_THAT(refusal_of([&] {
+                open_tiled_image(folder / "layers.exr", kCacheBytes, {"", "fog"});
+              }).line,
+              HasSubstr("it has no part"));
+}
+
 TEST(TiledImage, WhatHasNoTilesIsRefusedWithTheWayOut) {
   const TemporaryFolder folder;
   const std::string path = (folder / "plain.png").string();

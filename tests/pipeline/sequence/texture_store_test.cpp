@@ -3,6 +3,7 @@
 #include "pipeline/sequence/texture_store.h"
 #include "pipeline/sequence/shot_colours.h"
 
+#include <OpenImageIO/imagebuf.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,6 +44,31 @@ TEST(TextureStore, KeepsStillsAndReadsSequencesByFrame) {
   EXPECT_EQ(missing.line, "example.yaml:20:12: layers.background.image: " +
                               (folder / "bg.0003.png").string() + ": no such image");
   EXPECT_EQ(refusal_of([&] { store.digest(1, 3); }).code, ExitCode::BadInput);
+}
+
+TEST(TextureStore, ReadsTheLayerThatIsChosen) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "layers.exr").string();
+  OIIO::ImageSpec spec(1, 1, 6, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"R", "G", "B", "glow.R", "glow.G", "glow.B"};
+  OIIO::ImageBuf image(spec);
+  const float values[] = {0.1F, 0.1F, 0.1F, 0.7F, 0.7F, 0.7F};
+  image.setpixel(0, 0, values);
+  ASSERT_TRUE(image.write(path));
+  const auto shot_with = [&](const std::string& choice) {
+    return example_shot({"layers.earth.image={file: " + path + ", space: ACEScg" + choice + "}"});
+  };
+  const Shot own = shot_with(""), glow = shot_with(", layer: glow"),
+             part = shot_with(", layer: glow, part: 0");
+  const ColourConfig colours = builtin();
+  TextureStore of_own(own, colours), of_glow(glow, colours), of_part(part, colours);
+  EXPECT_NEAR(of_own.texture(0, 1)->lookup({0.5, 0.5})[0], 0.1, 1e-6);
+  EXPECT_NEAR(of_glow.texture(0, 1)->lookup({0.5, 0.5})[0], 0.7, 1e-6);
+  EXPECT_NEAR(of_part.texture(0, 1)->lookup({0.5, 0.5})[0], 0.7, 1e-6);
+  EXPECT_NE(of_own.digest(0, 1), of_glow.digest(0, 1));
+  const Shot none = shot_with(", layer: fog");
+  EXPECT_THAT(refusal_of([&] { TextureStore(none, colours).texture(0, 1); }).line,
+              HasSubstr("it has no layer \"fog\" with R, G, B or Y; its layers: glow"));
 }
 
 TEST(TextureStore, NightIsAnImageOfItsOwn) {
