@@ -81,6 +81,9 @@ class SparseTracer {
     all_bodies_ = std::all_of(tracer.surfaces().begin(), tracer.surfaces().end(), is_body);
   }
 
+  /// To be called before the batches of another place, so that no place's depend on those of another.
+  void begin() { last_met_nothing_ = false; }
+
   /// The batch is written when there is something in it.
   Found trace(TraceBatch& batch) {
     const EmptySpace::Known known = empty_.known_of(batch);
@@ -184,6 +187,7 @@ class TileTaker {
     const auto width = static_cast<std::size_t>(tile_.width + 2),
                height = static_cast<std::size_t>(tile_.height + 2);
     std::optional<CentreGrid> grid;
+    sparse_.begin();
     trace(
         width * height,
         [&](std::size_t n) { return film(static_cast<int>(n % width) - 1, static_cast<int>(n / width) - 1); },

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
 #include <optional>
 #include <regex>
 
@@ -46,6 +49,27 @@ std::string path_of_frame(const std::string& pattern, int frame) {
   std::string path = pattern;
   path.replace(placeholder->start, placeholder->length, fmt::format("{:0{}d}", frame, placeholder->padding));
   return path;
+}
+
+std::vector<int> frames_on_disk(const std::string& pattern) {
+  std::vector<int> frames;
+  const auto placeholder = find_placeholder(pattern);
+  if (!placeholder) return frames;
+  const std::filesystem::path folder = std::filesystem::path(pattern).parent_path();
+  const std::size_t start = placeholder->start - (pattern.find_last_of('/') + 1);
+  std::error_code error;
+  for (std::filesystem::directory_iterator file(folder.empty() ? "." : folder, error), end; file != end;
+       file.increment(error)) {
+    if (error) break;
+    const std::string name = file->path().filename().string();
+    if (name.size() <= start) continue;
+    int frame = 0;
+    const auto [stop, wrong] = std::from_chars(name.data() + start, name.data() + name.size(), frame);
+    if (wrong == std::errc() && std::filesystem::path(path_of_frame(pattern, frame)).filename() == name)
+      frames.push_back(frame);
+  }
+  std::sort(frames.begin(), frames.end());
+  return frames;
 }
 
 }  // namespace lensplane

@@ -32,6 +32,12 @@ struct ReplacedPixels {
   std::int64_t count;
 };
 
+/// A layer whose image of this frame is missing, and the frame that is shown instead; nothing for black.
+struct MissingFrame {
+  std::string layer;
+  std::optional<int> shown;
+};
+
 struct FrameReport {
   int frame = 0;
   bool already_done = false;
@@ -40,6 +46,7 @@ struct FrameReport {
   std::array<PhaseCost, kPhaseNames.size()> phases{};
   std::vector<Amplification> amplifications;
   std::vector<ReplacedPixels> replaced;
+  std::vector<MissingFrame> missing;
 
   PhaseCost& operator[](Phase phase) { return phases[static_cast<std::size_t>(phase)]; }
   const PhaseCost& operator[](Phase phase) const { return phases[static_cast<std::size_t>(phase)]; }

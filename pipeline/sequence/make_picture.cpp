@@ -24,8 +24,9 @@ std::vector<SurfaceLook> load_looks(const Shot& shot, const Scene& scene, ShotAs
                [&] { return looks_at(shot, scene, assets.textures, frame, time); });
 }
 
-/// What the images of the frame hold, and what of it is no number.
-void report_images(const Shot& shot, const std::vector<SurfaceLook>& looks, FrameReport& report) {
+/// What the images of the frame hold, what of it is no number, and which are missing.
+void report_images(const Shot& shot, const TextureStore& textures, int frame,
+                   const std::vector<SurfaceLook>& looks, FrameReport& report) {
   const std::vector<LayerSurface> surfaces = surfaces_of(shot);
   for (std::size_t k = 0; k < looks.size(); ++k) {
     if (surfaces[k].crossing > 0) continue;
@@ -35,6 +36,8 @@ void report_images(const Shot& shot, const std::vector<SurfaceLook>& looks, Fram
       report[Phase::Load].bytes += texture->bytes();
       not_numbers += texture->not_numbers();
     }
+    if (const auto stand_in = textures.stand_in(surfaces[k].layer, frame))
+      report.missing.push_back({shot.layers[surfaces[k].layer].name, stand_in->frame});
     if (not_numbers > 0) report.replaced.push_back({shot.layers[surfaces[k].layer].name, not_numbers});
   }
 }
@@ -113,7 +116,7 @@ void make_picture(const Shot& shot, const ColourConfig& colours, ShotAssets& ass
         timed(report[Phase::Trace].seconds, [&] { return amplifications_of(shot, frame, exposure.hits); });
     picture = std::move(exposure.picture);
   }
-  report_images(shot, looks, report);
+  report_images(shot, assets.textures, frame, looks, report);
   report[Phase::Composite].bytes += picture.pixels.size() * sizeof(Rgba);
   if (const auto glow = glow_at(shot, frame)) {
     picture = timed(report[Phase::Composite].seconds, [&] { return with_glow(picture, *glow); });

@@ -71,6 +71,10 @@ std::string line_of(const FrameReport& report) {
     line += fmt::format(", {}: {} {} black for NaN or infinity", replaced.layer, replaced.count,
                         replaced.count == 1 ? "pixel" : "pixels");
   }
+  for (const MissingFrame& missing : report.missing) {
+    line += fmt::format(", {}: its image is missing, {}", missing.layer,
+                        missing.shown ? fmt::format("{:04} is shown", *missing.shown) : "black");
+  }
   return line;
 }
 

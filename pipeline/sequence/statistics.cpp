@@ -27,9 +27,11 @@ Json json_from_report(const FrameReport& report) {
   }
   Json replaced = Json::object();
   for (const ReplacedPixels& r : report.replaced) replaced[r.layer] = r.count;
-  return {{"replaced_pixels", replaced},   {"frame", report.frame}, {"already_done", report.already_done},
-          {"seconds", report.seconds},     {"rays", report.rays},   {"phases", json_from_phases(report)},
-          {"amplification", amplification}};
+  Json missing = Json::object();
+  for (const MissingFrame& m : report.missing) missing[m.layer] = m.shown ? Json(*m.shown) : Json();
+  return {{"replaced_pixels", replaced},         {"missing_frames", missing},     {"frame", report.frame},
+          {"already_done", report.already_done}, {"seconds", report.seconds},     {"rays", report.rays},
+          {"phases", json_from_phases(report)},  {"amplification", amplification}};
 }
 
 FrameReport sum_of(const std::vector<FrameReport>& reports) {

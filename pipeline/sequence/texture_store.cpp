@@ -16,6 +16,25 @@ std::string path_of(const LocatedText& pattern, int frame) {
   return resolve_shipped(path_of_frame(pattern.text, frame)).string();
 }
 
+/// What is shown where a frame is missing.
+std::optional<TextureStore::StandIn> stand_in_of(const LayerImage& image, int frame) {
+  if (image.missing == Missing::Error || std::filesystem::exists(path_of(image.pattern, frame)))
+    return std::nullopt;
+  if (image.missing == Missing::Black) return TextureStore::StandIn{};
+  const std::vector<int> frames = frames_on_disk(resolve_shipped(image.pattern.text).string());
+  if (frames.empty()) return std::nullopt;  // to be told by whoever looks for the file
+  const auto later = std::upper_bound(frames.begin(), frames.end(), frame);
+  return TextureStore::StandIn{later == frames.begin() ? *later : *(later - 1)};
+}
+
+/// The file that is shown at a frame; nothing for black.
+std::optional<std::string> file_of(const LayerImage& image, int frame) {
+  const auto stand_in = stand_in_of(image, frame);
+  if (!stand_in) return path_of(image.pattern, frame);
+  if (!stand_in->frame) return std::nullopt;
+  return path_of(image.pattern, *stand_in->frame);
+}
+
 void require_file(const std::string& path, const std::string& noun) {
   if (!std::filesystem::exists(path)) throw Failure(ExitCode::BadInput, path + ": no such " + noun);
 }
@@ -50,6 +69,13 @@ std::shared_ptr<const Texture> TextureStore::night(std::size_t index, int frame)
   return sphere && sphere->night ? load(*sphere->night, wrap_of(layer), frame) : nullptr;
 }
 
+std::optional<TextureStore::StandIn> TextureStore::stand_in(std::size_t index, int frame) const {
+  for (const LayerImage* image : images_of(shot_.layers[index])) {
+    if (const auto stand_in = stand_in_of(*image, frame)) return stand_in;
+  }
+  return std::nullopt;
+}
+
 std::string TextureStore::digest(std::size_t index, int frame) {
   const Layer& layer = shot_.layers[index];
   if (const auto* stars = std::get_if<StarsLayer>(&layer.kind)) return digest_of(stars->catalogue);
@@ -60,7 +86,9 @@ std::string TextureStore::digest(std::size_t index, int frame) {
 
 Texture TextureStore::read(const LayerImage& image, Wrap wrap, int frame) const {
   return located_in_shot(image.pattern, [&] {
-    const std::string path = path_of(image.pattern, frame);
+    const auto file = file_of(image, frame);
+    if (!file) return Texture(Picture{1, 1, 0, 0, 1, 1, {Rgba{0, 0, 0, 0}}}, wrap);
+    const std::string& path = *file;
     const ImageEncoding encoding = encoding_of(image, path);
     const auto to_working = [this, encoding](const EncodedImage& encoded) {
       return colours_.to_working(encoded, encoding, shot_.colour.working.text);
@@ -93,7 +121,9 @@ std::shared_ptr<const Texture> TextureStore::load(const LayerImage& image, Wrap 
 std::string TextureStore::digest_of(const LayerImage& image, Wrap wrap, int frame) {
   const auto compute = [&] {
     return located_in_shot(image.pattern, [&] {
-      const std::string path = path_of(image.pattern, frame);
+      const auto file = file_of(image, frame);
+      if (!file) return Fingerprint().add("black").digest();
+      const std::string& path = *file;
       require_file(path, "image");
       const ImageEncoding encoding = encoding_of(image, path);
       return Fingerprint()

@@ -29,6 +29,12 @@ class TextureStore {
   /// The image of a sphere's night; null when it has none. Throws Failure (BadInput).
   std::shared_ptr<const Texture> night(std::size_t layer, int frame);
 
+  /// The frame of a layer's image (else of its night's) that is shown because the one asked for is missing.
+  struct StandIn {
+    std::optional<int> frame;  // nothing: black
+  };
+  std::optional<StandIn> stand_in(std::size_t layer, int frame) const;
+
   /// A hash of all the layer's files, images or catalogue, and of how their colours are read.
   std::string digest(std::size_t layer, int frame);
 

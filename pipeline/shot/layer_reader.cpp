@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+
+#include "pipeline/image/frame_path.h"
 
 namespace lensplane {
 namespace {
@@ -20,10 +23,15 @@ LocatedText located_text(const Value& value) {
 
 LayerImage read_image(const Value& value) {
   if (!value.is_map()) return {located_text(value), std::nullopt, std::nullopt};
-  value.only_keys({"file", "layer", "part", "space", "alpha"});
+  value.only_keys({"file", "layer", "part", "missing", "space", "alpha"});
   LayerImage image{located_text(value.require("file", "the path of an image")), std::nullopt, std::nullopt};
   if (const auto layer = value.find("layer")) image.choice.layer = layer->text();
   if (const auto part = value.find("part")) image.choice.part = part->text();
+  if (const auto missing = value.find("missing")) {
+    constexpr std::array<std::string_view, 3> kNames = {"error", "hold", "black"};
+    image.missing = static_cast<Missing>(missing->choice(kNames));
+    if (!is_sequence(image.pattern.text)) missing->refuse("allowed: with a sequence only, like bg.####.exr");
+  }
   if (const auto space = value.find("space")) image.space = located_text(*space);
   if (const auto alpha = value.find("alpha")) {
     constexpr std::array<std::string_view, 3> kNames = {"associated", "straight", "none"};
@@ -160,15 +168,16 @@ std::optional<Layer> read_layer(const Value& layer, const ShotNames& names, NotY
   const auto type = static_cast<LayerType>(type_value.choice(kTypeNames));
   only_keys_of(type, layer);
   const std::string name = layer.require("name", "a name for this layer's files").name();
+  const auto seen_as = [&](auto kind) { return Layer{name, read_image_of(layer), std::move(kind)}; };
   switch (type) {
     case LayerType::Plate:
-      return Layer{name, read_image_of(layer), read_plate(layer)};
+      return seen_as(read_plate(layer));
     case LayerType::LatLong:
-      return Layer{name, read_image_of(layer), LatLongLayer{}};
+      return seen_as(LatLongLayer{});
     case LayerType::Sphere:
-      return Layer{name, read_image_of(layer), read_sphere(layer)};
+      return seen_as(read_sphere(layer));
     case LayerType::Ring:
-      return Layer{name, read_image_of(layer), read_ring(layer, names)};
+      return seen_as(read_ring(layer, names));
     case LayerType::Stars:
       return Layer{name, {}, read_stars(layer)};
     case LayerType::PovRay:

@@ -101,11 +101,16 @@ enum class Edge { Black, Clamp, Mirror, Repeat };
 /// How a picture's colours and its alpha belong together.
 enum class AlphaKind { Associated, Straight, None };
 
+/// What is seen in a frame whose image is not there: nothing, the one before it (or, before the first, the
+/// first), or transparent black.
+enum class Missing { Error, Hold, Black };
+
 struct LayerImage {
   LocatedText pattern;  // a path, or that of a sequence; see path_of_frame
   std::optional<LocatedText> space;
   std::optional<AlphaKind> alpha;  // absent: as the file says
   ImageChoice choice = {};
+  Missing missing = Missing::Error;  // of a sequence
 };
 
 struct PlateLayer {

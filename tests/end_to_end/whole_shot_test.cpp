@@ -250,5 +250,37 @@ TEST(WholeShot, PixelsThatAreNoNumbersAreReported) {
             (nlohmann::json{{"planet", 1}, {"glass", 2}}));
 }
 
+TEST(WholeShot, FramesThatAreMissingAreReported) {
+  const TemporaryFolder folder;
+  write_picture(folder / "bg.0001.exr", 8, 8, [](int, int) { return std::array{0.5F, 0.25F, 0.0F, 1.0F}; });
+  const auto shot_with = [&](const std::string& missing) {
+    return folder
+        .write("gap.yaml",
+               "lensplane: 1\nshot: gap\nframes: 1-2\ncamera: {resolution: [16, 16], fov: 3 deg}\nlayers:\n"
+               "  - {name: bg, type: plate, image: {file: bg.####.exr, space: ACEScg, missing: " +
+                   missing + "}}\noutput: {directory: out, review: none}\n")
+        .string();
+  };
+  const std::string stats = (folder / "stats.json").string();
+  const auto render = [&](const std::string& missing) {
+    return lensplane({"render", shot_with(missing), "--stats", stats});
+  };
+  const auto missing_frames = [&](int frame) {
+    return nlohmann::json::parse(contents_of(stats))["frames"][frame - 1]["missing_frames"];
+  };
+  const ProgramResult held = render("hold");
+  EXPECT_EQ(held.exit_code, 0) << held.err;
+  EXPECT_THAT(held.out, HasSubstr(", bg: its image is missing, 0001 is shown\n"));
+  EXPECT_EQ(missing_frames(1), nlohmann::json::object());
+  EXPECT_EQ(missing_frames(2), (nlohmann::json{{"bg", 1}}));
+  EXPECT_NEAR(read_picture(folder / "out/gap.0002.exr").getchannel(8, 8, 0, 0), 0.5, 1e-3);
+  EXPECT_THAT(render("black").out, HasSubstr("0002: "));
+  EXPECT_EQ(missing_frames(2), (nlohmann::json{{"bg", nullptr}}));
+  EXPECT_EQ(read_picture(folder / "out/gap.0002.exr").getchannel(8, 8, 0, 3), 0);
+  const ProgramResult strict = render("error");
+  EXPECT_EQ(strict.exit_code, 2);
+  EXPECT_THAT(strict.err, HasSubstr("bg.0002.exr: no such image"));
+}
+
 }  // namespace
 }  // namespace lensplane

@@ -2,10 +2,16 @@
 
 #include "pipeline/image/frame_path.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/pipeline/temporary_folder.h"
 
 namespace lensplane {
 namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
 
 TEST(FramePath, FillsTheFrameNumberIn) {
   EXPECT_EQ(path_of_frame("plates/bg.####.exr", 7), "plates/bg.0007.exr");
@@ -24,6 +30,20 @@ TEST(FramePath, KnowsSequences) {
   EXPECT_TRUE(is_sequence("bg.%04d.exr"));
   EXPECT_FALSE(is_sequence("bg.1001.exr"));
   EXPECT_FALSE(is_sequence("100%.exr"));
+}
+
+TEST(FramePath, FindsTheFramesThatThereAre) {
+  const TemporaryFolder folder;
+  for (const char* name :
+       {"bg.0010.exr", "bg.0009.exr", "bg.10000.exr", "bg.-001.exr", "bg.9.exr", "bg.0011.png",
+        "bg.0012.exr.part", "bg..exr", "b", "fg.0013.exr", "bg.99999999999.exr"})
+    folder.write(name, "");
+  EXPECT_THAT(frames_on_disk((folder / "bg.####.exr").string()), ElementsAre(-1, 9, 10, 10000));
+  EXPECT_THAT(frames_on_disk((folder / "bg.%04d.exr").string()), ElementsAre(-1, 9, 10, 10000));
+  EXPECT_THAT(frames_on_disk((folder / "bg.#.exr").string()), ElementsAre(9, 10000));
+  EXPECT_THAT(frames_on_disk((folder / "####").string()), IsEmpty());
+  EXPECT_THAT(frames_on_disk((folder / "none/bg.####.exr").string()), IsEmpty());
+  EXPECT_THAT(frames_on_disk((folder / "bg.0010.exr").string()), IsEmpty());
 }
 
 }  // namespace

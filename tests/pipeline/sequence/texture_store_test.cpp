@@ -46,6 +46,47 @@ TEST(TextureStore, KeepsStillsAndReadsSequencesByFrame) {
   EXPECT_EQ(refusal_of([&] { store.digest(1, 3); }).code, ExitCode::BadInput);
 }
 
+TEST(TextureStore, AnotherFrameOrBlackStandsInForOneThatIsMissing) {
+  const TemporaryFolder folder;
+  write_grey(folder / "bg.0002.png", 0);
+  write_grey(folder / "bg.0004.png", 1);
+  const auto shot_with = [&](const std::string& missing) {
+    return example_shot(
+        {"layers.background.image={file: " + (folder / "bg.####.png").string() + missing + "}"});
+  };
+  const ColourConfig colours = builtin();
+  const auto shown = [&](const Shot& shot, int frame) {
+    TextureStore store(shot, colours);
+    const auto stand_in = store.stand_in(1, frame);
+    return std::pair(stand_in ? stand_in->frame.value_or(-1) : 0,
+                     store.texture(1, frame)->lookup({0.5, 0.5}));
+  };
+  const Shot hold = shot_with(", missing: hold"), black = shot_with(", missing: black"),
+             strict = shot_with(", missing: error");
+  const Rgba first = shown(hold, 2).second, second = shown(hold, 4).second;
+  ASSERT_NE(first, second);
+  EXPECT_EQ(shown(hold, 2).first, 0);
+  EXPECT_EQ(shown(hold, 1), std::pair(2, first));
+  EXPECT_EQ(shown(hold, 3), std::pair(2, first));
+  EXPECT_EQ(shown(hold, 9), std::pair(4, second));
+  EXPECT_EQ(shown(black, 4), std::pair(0, second));
+  EXPECT_EQ(shown(black, 3), std::pair(-1, Rgba{0, 0, 0, 0}));
+  EXPECT_THAT(refusal_of([&] { shown(strict, 3); }).line, HasSubstr("bg.0003.png: no such image"));
+  // A frame that turns up is another picture.
+  const std::string held = TextureStore(hold, colours).digest(1, 3),
+                    none = TextureStore(black, colours).digest(1, 3);
+  EXPECT_EQ(held, TextureStore(hold, colours).digest(1, 2));
+  write_grey(folder / "bg.0003.png", 0.5F);
+  EXPECT_NE(TextureStore(hold, colours).digest(1, 3), held);
+  EXPECT_NE(TextureStore(black, colours).digest(1, 3), none);
+  EXPECT_EQ(shown(hold, 3).first, 0);
+  for (const char* name : {"bg.0002.png", "bg.0003.png", "bg.0004.png"})
+    std::filesystem::remove(folder / name);
+  EXPECT_THAT(refusal_of([&] { shown(hold, 3); }).line, HasSubstr("bg.0003.png: no such image"));
+  EXPECT_THAT(refusal_of([&] { example_shot({"layers.earth.image={file: a.png, missing: hold}"}); }).line,
+              HasSubstr("missing: allowed: with a sequence only"));
+}
+
 TEST(TextureStore, ReadsTheLayerThatIsChosen) {
   const TemporaryFolder folder;
   const std::string path = (folder / "layers.exr").string();
