@@ -42,7 +42,10 @@ struct Lens {
 
 /// A picture at infinity that fills the camera's frame when nothing is lensed.
 /// (s, t): (0, 0) is the frame's lower left corner, (1, 1) its upper right. Outside the frame they go on.
-struct Plate {};
+struct Plate {
+  bool bent = false;  // a picture of light that was bent already: every film position sees its own place on
+                      // it, wherever its light goes
+};
 
 /// A picture around everything, at infinity. s = .5 looks along the world's -z, s = .75 along +x; t = 1 is
 /// up.

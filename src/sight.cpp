@@ -51,18 +51,19 @@ template <class Number>
 void see_at_infinity(const Sight& sight, const Surface& surface, const LineBatch<Number>& rays, int bends,
                      const TraceBatch& batch, SurfaceBatch& result) {
   const Camera& camera = sight.camera;
-  const bool plate = std::holds_alternative<Plate>(surface);
-  const bool kernel = plate && camera.projection == Projection::Perspective && bends > 0;
+  const bool plate = std::holds_alternative<Plate>(surface), bent = is_bent(surface);
+  const bool kernel = plate && !bent && camera.projection == Projection::Perspective && bends > 0;
   if (kernel) {
     meet_plate(camera, sight.slope, batch.x, batch.y, rays, result);
   } else {
     for (int i = 0; i < kBatchSize; ++i) {
       const FilmPosition film{batch.x[i], batch.y[i]};
       const auto first = direction_from_film<Number>(camera, film);
-      const auto last = bends > 0 ? rays.direction.get(i) : first;  // to the last bit
+      const auto last = bends > 0 && !bent ? rays.direction.get(i) : first;  // to the last bit
       set(sight, plate ? meet_plate(camera, film, first, last) : meet_sky(camera, first, last), i, result);
     }
   }
+  if (bent) return;
   if (result.passes) fill_along(sight, rays, bends, *result.passes);
   end_captured(rays.captured, true, bends, result);
 }

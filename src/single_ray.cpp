@@ -66,6 +66,8 @@ std::vector<SurfaceHit<Number>> hits_of(const Sight& sight, FilmPosition film, c
     if (is_body(surface)) {
       const BodyHit<Number>& body = std::holds_alternative<Sphere>(surface) ? *ball++ : *disc++;
       hits.push_back(body.hit ? hit_of_body(surface, sight.camera, film, first, body) : no_hit(ray));
+    } else if (is_bent(surface)) {
+      hits.push_back(meet_plate(sight.camera, film, first, first));
     } else if (ray.captured) {
       hits.push_back(no_hit(ray));
     } else {

@@ -126,6 +126,7 @@ SurfaceHit<Number> meet(const Surface& surface, const Camera& camera, FilmPositi
                         const RayPath<Number>& path, const Deflectors* finite) {
   if (is_body(surface)) return meet_body(surface, camera, film, path, finite);
   const Vector<Number>& first = path.segments.front().direction;
+  if (is_bent(surface)) return meet_plate(camera, film, first, first);
   const RaySegment<Number>& end = path.segments.back();
   SurfaceHit<Number> hit;
   if (path.captured) {

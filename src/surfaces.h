@@ -97,6 +97,12 @@ SurfaceHit<Number> meet_plate(const Camera& camera, FilmPosition film, const Vec
 template <class Number>
 SurfaceHit<Number> meet_sky(const Camera& camera, const Vector<Number>& first, const Vector<Number>& last);
 
+/// Is it a plate whose light was bent already?
+inline bool is_bent(const Surface& surface) {
+  const auto* plate = std::get_if<Plate>(&surface);
+  return plate && plate->bent;
+}
+
 /// What the path of a ray that left the camera through `film` meets on `surface`.
 /// `finite` holds the masses when their finite distances count, otherwise null.
 template <class Number>

@@ -8,6 +8,7 @@
 #include "pipeline/image/version.h"
 #include "pipeline/sequence/plate_margins.h"
 #include "pipeline/shot/frame_range.h"
+#include "pipeline/shot/layer_files.h"
 #include "pipeline/shot/shot_reader.h"
 #include "pipeline/shot/shot_scene.h"
 
@@ -143,6 +144,7 @@ Shot shot_of(const Options& options) {
   // Quick looks must not overwrite the frames that they are looks at.
   if (options.proxy > 1) shot.output.directory /= "proxy" + std::to_string(options.proxy);
   if (!options.output.empty()) shot.output.directory = options.output;
+  put_plates(shot);
   return with_overscan(proxy_of(std::move(shot), options.proxy));
 }
 

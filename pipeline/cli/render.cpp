@@ -12,6 +12,7 @@
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/failure.h"
 #include "pipeline/image/image_library.h"
+#include "pipeline/sequence/make_plates.h"
 #include "pipeline/sequence/overwriting.h"
 #include "pipeline/sequence/plate_margins.h"
 #include "pipeline/sequence/progress.h"
@@ -27,6 +28,17 @@ void write_statistics(const Options& options, const Shot& shot, int threads, dou
   if (options.stats.empty()) return;
   const std::string json = json_from_reports(shot.name, threads, seconds, reports);
   write_atomically(options.stats, json);
+}
+
+void render_plates(const Shot& shot, const std::vector<int>& frames, bool redo,
+                   const std::function<bool()>& interrupted, const Progress& progress) {
+  const auto made = [&](const PlateReport& report) {
+    progress.say(line_of(report));
+    for (const std::string& warning : report.warnings)
+      progress.say(fmt::format("{:04}: {}: POV-Ray says: {}", report.frame, report.layer, warning));
+  };
+  make_plates(shot, frames, redo,
+              {made, [&](const std::string& doing) { progress.show(doing); }, interrupted});
 }
 
 }  // namespace
@@ -58,6 +70,7 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
   std::vector<FrameReport> reports;
   {
     Progress progress(frames.size(), options.quiet);
+    if (tasks.picture) render_plates(shot, frames, options.redo, interrupted, progress);
     reports = timed(seconds, [&] {
       return render_sequence(
           shot, colours, frames, tasks,

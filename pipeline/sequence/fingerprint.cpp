@@ -20,7 +20,7 @@ void add_scene(Fingerprint& print, const Scene& scene) {
   print.add(camera.position).add(camera.axes);
   for (const Lens& lens : scene.lenses) print.add("lens").add(lens.m).add(lens.position);
   for (const Surface& surface : scene.surfaces) {
-    if (std::holds_alternative<Plate>(surface)) print.add("plate");
+    if (const auto* plate = std::get_if<Plate>(&surface)) print.add(plate->bent ? "bent plate" : "plate");
     if (std::holds_alternative<LatLong>(surface)) print.add("latlong");
     if (const auto* sphere = std::get_if<Sphere>(&surface)) {
       print.add("sphere").add(sphere->centre).add(sphere->radius).add(sphere->axes);

@@ -31,6 +31,7 @@ std::set<std::string> outputs_of(const Shot& shot, const std::vector<int>& frame
     for (const Layer& layer : shot.layers) {
       outputs.insert(map_path(here, layer.name, frame).string());
       outputs.insert(data_path(here, layer.name, frame).string());
+      if (layer.povray) outputs.insert(plate_path(here, layer.name, frame).string());
     }
   }
   return outputs;

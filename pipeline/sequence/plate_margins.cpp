@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/sequence/shutter.h"
 #include "pipeline/shot/shot_scene.h"
 #include "src/tracer.h"
 
@@ -41,15 +42,21 @@ Plates plates_at(const Shot& shot, int frame) {
   return plates;
 }
 
-/// Every `step`th pixel of every `step`th row, by their middles.
+/// Every `step`th pixel of every `step`th row, overscan included, by their middles.
 std::vector<FilmPosition> pixels_of(const Camera& camera, int step) {
   std::vector<FilmPosition> films;
-  for (int row = step / 2; row < camera.height; row += step) {
-    for (int column = step / 2; column < camera.width; column += step) {
-      films.push_back({column + 0.5, row + 0.5});
+  for (int row = step / 2; row < camera.full_height(); row += step) {
+    for (int column = step / 2; column < camera.full_width(); column += step) {
+      films.push_back({column - camera.overscan + 0.5, row - camera.overscan + 0.5});
     }
   }
   return films;
+}
+
+/// Such that about `rays` pixels are looked at.
+int step_for(const Camera& camera, int rays) {
+  const double pixels = static_cast<double>(camera.full_width()) * camera.full_height();
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / rays))));
 }
 
 /// How many pixels (s, t) lies beyond the frame.
@@ -104,8 +111,7 @@ std::vector<PlateMargin> plate_margins(const Shot& shot, int frame, int rays) {
   TraceSettings settings = trace_at(shot, frame);
   settings.effects = {};
   const Camera& camera = plates.scene.camera;
-  const double pixels = static_cast<double>(camera.width) * camera.height;
-  const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / rays))));
+  const int step = step_for(camera, rays);
   const auto beyond =
       lookups_beyond(Tracer(plates.scene, plan_trace(plates.scene, settings)), pixels_of(camera, step));
   std::vector<PlateMargin> margins;
@@ -138,6 +144,25 @@ std::string line_of(const PlateMargin& margin) {
       "side "
       "serve {:.4g} % of all, {} every one",
       margin.layer, 100 * margin.outside, margin.frame, margin.most, 100 * (1 - kUnserved), all);
+}
+
+int needed_overscan(const Shot& shot, std::size_t layer, int frame) {
+  if (shot.camera.projection == Projection::LatLong) return 0;
+  std::vector<int> all;
+  int step = 1;
+  for (const Moment& moment : moments_of(shot, frame)) {
+    Scene scene = scene_at(shot, moment.time);
+    scene.surfaces = {scene.surfaces[*map_surfaces_of(shot)[layer]]};
+    TraceSettings settings = trace_at(shot, moment.time);
+    settings.effects = {};
+    step = step_for(scene.camera, kRaysOfAFrame);
+    const auto beyond =
+        lookups_beyond(Tracer(scene, plan_trace(scene, settings)), pixels_of(scene.camera, step));
+    all.insert(all.end(), beyond.front().begin(), beyond.front().end());
+  }
+  const int most = margin_from(std::move(all), shot.layers[layer].name, frame).most;
+  const int side = std::max(shot.camera.width, shot.camera.height);
+  return most == 0 ? 0 : (std::min(most + kMorePixels * step, side) + 1) / 2 * 2;
 }
 
 Shot with_overscan(Shot shot) {

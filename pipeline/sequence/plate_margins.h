@@ -34,6 +34,12 @@ std::vector<PlateMargin> plate_margins(const Shot& shot, int frame, int rays);
 /// For each plate the worst of several frames; those of which nothing outside is looked up are left out.
 std::vector<PlateMargin> worst_margins(const Shot& shot, const std::vector<int>& frames);
 
+/// How far a plate has to reach beyond the frame, in pixels on every side, for all that the picture of a
+/// frame looks up of it, overscan and the time that the shutter is open included: an even number that serves
+/// all but kUnserved of the pixels, at most the larger side of the frame. 0 for a lat-long camera, which sees
+/// everything.
+int needed_overscan(const Shot& shot, std::size_t layer, int frame);
+
 /// "layer bg: frame 1001 looks outside of the plate with 3.1 % of its pixels; ..."
 std::string line_of(const PlateMargin& margin);
 

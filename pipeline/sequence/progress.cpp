@@ -37,6 +37,21 @@ void Progress::frame_done(const FrameReport& report) {
   show_status();
 }
 
+void Progress::say(const std::string& line) const {
+  if (quiet_) return;
+  clear_status();
+  std::fputs((line + "\n").c_str(), stdout);
+  std::fflush(stdout);
+}
+
+void Progress::show(const std::string& doing) const {
+  constexpr std::size_t kLineOfTerminal = 79;
+  if (!terminal_) return;
+  clear_status();
+  std::fputs(doing.substr(0, kLineOfTerminal).c_str(), stderr);
+  std::fflush(stderr);
+}
+
 void Progress::clear_status() const {
   if (terminal_) std::fputs("\r\033[K", stderr);
 }

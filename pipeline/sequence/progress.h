@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <string>
 
 #include "pipeline/sequence/frame_report.h"
 
@@ -20,6 +21,10 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void frame_done(const FrameReport& report);
+
+  /// A line about something else that is done, and what is being done, in the place of the status line.
+  void say(const std::string& line) const;
+  void show(const std::string& doing) const;
 
  private:
   void clear_status() const;

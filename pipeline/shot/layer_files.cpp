@@ -2,6 +2,8 @@
 
 #include "pipeline/shot/layer_files.h"
 
+#include <fmt/format.h>
+
 namespace lensplane {
 namespace {
 
@@ -17,6 +19,7 @@ auto images_in(AnyLayer& layer) -> std::vector<decltype(&layer.image)> {
 template <class AnyLayer>
 auto files_in(AnyLayer& layer) -> std::vector<decltype(&layer.image.pattern)> {
   if (auto* stars = std::get_if<StarsLayer>(&layer.kind)) return {&stars->catalogue};
+  if (layer.povray) return {&layer.povray->scene};
   std::vector<decltype(&layer.image.pattern)> files;
   for (auto* image : images_in(layer)) files.push_back(&image->pattern);
   return files;
@@ -34,6 +37,15 @@ std::vector<const LocatedText*> files_of(const Layer& layer) {
 
 std::vector<LocatedText*> files_of(Layer& layer) {
   return files_in(layer);
+}
+
+void put_plates(Shot& shot) {
+  for (Layer& layer : shot.layers) {
+    if (!layer.povray) continue;
+    layer.image.pattern = layer.povray->scene;  // whom to blame
+    layer.image.pattern.text =
+        (shot.output.directory / fmt::format("{}.{}.plate.####.exr", shot.name, layer.name)).string();
+  }
 }
 
 }  // namespace lensplane

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "pipeline/image/frame_path.h"
+#include "pipeline/shot/povray_reader.h"
 
 namespace lensplane {
 namespace {
@@ -50,16 +51,6 @@ std::optional<Keyed<double>> read_distance(const Value& layer) {
   const auto distance = layer.find("distance");
   if (!distance || (!distance->is_map() && distance->text() == "infinity")) return std::nullopt;
   return read_keyed_positive(*distance, Dimension::Length);
-}
-
-PlateLayer read_plate(const Value& layer) {
-  PlateLayer plate;
-  plate.distance = read_distance(layer);
-  if (const auto edge = layer.find("edge")) {
-    constexpr std::array<std::string_view, 4> kNames = {"black", "clamp", "mirror", "repeat"};
-    plate.edge = static_cast<Edge>(edge->choice(kNames));
-  }
-  return plate;
 }
 
 SphereLayer read_sphere(const Value& layer) {
@@ -129,18 +120,6 @@ StarsLayer read_stars(const Value& layer) {
   return stars;
 }
 
-void check_povray(const Value& layer) {
-  layer.require("scene", "the path of a .pov file").text();
-  if (const auto as = layer.find("as")) {
-    constexpr std::array<std::string_view, 2> kNames = {"plate", "latlong"};
-    as->choice(kNames);
-  }
-  if (const auto distance = layer.find("distance");
-      distance && (distance->is_map() || distance->text() != "infinity")) {
-    read_keyed_positive(*distance, Dimension::Length);
-  }
-}
-
 void only_keys_of(LayerType type, const Value& layer) {
   switch (type) {
     case LayerType::Plate:
@@ -155,13 +134,24 @@ void only_keys_of(LayerType type, const Value& layer) {
     case LayerType::Stars:
       return layer.only_keys({"name", "type", "catalogue", "exposure", "rotation"});
     case LayerType::PovRay:
-      return layer.only_keys({"name", "type", "scene", "as", "distance"});
+      return layer.only_keys(
+          {"name", "type", "scene", "as", "distance", "edge", "unit", "antialias", "width", "timeout"});
   }
 }
 
 }  // namespace
 
-std::optional<Layer> read_layer(const Value& layer, const ShotNames& names, NotYet& not_yet) {
+PlateLayer read_plate(const Value& layer) {
+  PlateLayer plate;
+  plate.distance = read_distance(layer);
+  if (const auto edge = layer.find("edge")) {
+    constexpr std::array<std::string_view, 4> kNames = {"black", "clamp", "mirror", "repeat"};
+    plate.edge = static_cast<Edge>(edge->choice(kNames));
+  }
+  return plate;
+}
+
+Layer read_layer(const Value& layer, const ShotNames& names) {
   if (!layer.is_map()) layer.refuse("needed: a map with the keys name, type, image, ...");
   const Value type_value =
       layer.require("type", fmt::format("one of {}", "plate, latlong, sphere, ring, stars, povray"));
@@ -181,11 +171,9 @@ std::optional<Layer> read_layer(const Value& layer, const ShotNames& names, NotY
     case LayerType::Stars:
       return Layer{name, {}, read_stars(layer)};
     case LayerType::PovRay:
-      check_povray(layer);
       break;
   }
-  not_yet.add(type_value, type_value.text());
-  return std::nullopt;
+  return read_povray_layer(layer, name);
 }
 
 namespace {

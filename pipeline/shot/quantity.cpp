@@ -47,6 +47,9 @@ constexpr std::array kUnits = {
     Unit{"Mjup", Dimension::Mass, geometric_mass_from_gm(kJupiterGM)},
     Unit{"px", Dimension::Pixels, 1.0},
     Unit{"%", Dimension::Share, 0.01},
+    Unit{"s", Dimension::Time, 1.0},
+    Unit{"min", Dimension::Time, 60.0},
+    Unit{"h", Dimension::Time, 3600.0},
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -92,6 +95,8 @@ std::string_view noun_of(Dimension dimension) {
       return "a number of pixels";
     case Dimension::Share:
       return "a share";
+    case Dimension::Time:
+      return "a time";
   }
   return {};
 }

@@ -17,6 +17,7 @@ enum class Dimension {
   Mass,    // geometric mass G M / c^2, metres
   Pixels,  // pixels of the output frame
   Share,   // of a whole
+  Time,    // seconds
 };
 
 /// "a length", "an angle", ...

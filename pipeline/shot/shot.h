@@ -115,7 +115,8 @@ struct LayerImage {
 
 struct PlateLayer {
   Edge edge = Edge::Black;
-  std::optional<Keyed<double>> distance;  // metres along the camera's axis; nothing: at infinity
+  std::optional<Keyed<double>> distance = {};  // metres along the camera's axis; nothing: at infinity
+  bool bent = false;                           // a picture of light that lenses have bent already
 };
 struct LatLongLayer {};
 struct SphereLayer {
@@ -138,10 +139,27 @@ struct StarsLayer {
   Keyed<Vec3> rotation;    // as Rotation
 };
 
+/// What a POV-Ray scene is rendered as: the camera's view without lenses, everything around the camera, or
+/// what the bent rays themselves meet.
+enum class PovRayAs { Plate, LatLong, Bent };
+
+/// A scene that POV-Ray renders, frame by frame, into the image of its layer.
+struct PovRayScene {
+  static constexpr int kBentAntialias = 2;
+
+  LocatedText scene;  // a path
+  PovRayAs as = PovRayAs::Plate;
+  double unit_m = 1.0;            // metres that one unit of the scene is
+  int antialias = 3;              // n x n rays in a pixel; bent: in each, otherwise where neighbours differ
+  std::optional<int> width = {};  // pixels of a lat-long; nothing: as fine as the camera sees, up to 4096
+  double timeout_s = 600.0;       // without progress until POV-Ray is taken to hang
+};
+
 struct Layer {
   std::string name;
   LayerImage image;  // stars have none
   std::variant<PlateLayer, LatLongLayer, SphereLayer, RingLayer, StarsLayer> kind;
+  std::optional<PovRayScene> povray = {};  // what renders the image
 };
 
 /// A grade by an ASC CDL, for the picture for review.

@@ -203,9 +203,7 @@ Shot shot_from_yaml(const YamlNode& tree) {
   if (lenses) {
     for (const Value& lens : lenses->items()) shot.lenses.push_back(read_lens(lens));
   }
-  for (const Value& item : layers.items()) {
-    if (auto layer = read_layer(item, names, not_yet)) shot.layers.push_back(std::move(*layer));
-  }
+  for (const Value& item : layers.items()) shot.layers.push_back(read_layer(item, names));
   shot.camera = read_camera(root.require("camera", "a map with resolution, fov, ..."), names, not_yet);
   shot.trace = read_trace(root.find("trace"), shot.camera.projection);
   shot.sampling = read_sampling(root);
@@ -235,6 +233,7 @@ Shot read_shot(const std::filesystem::path& path, const std::vector<std::string>
   if (shot.colour.grade) shot.colour.grade->cdl.text = beside_shot(shot.colour.grade->cdl.text);
   if (shot.colour.config) shot.colour.config->text = beside_shot(shot.colour.config->text);
   shot.output.directory = beside_shot(shot.output.directory.string());
+  put_plates(shot);
   if (shot.camera.from) shot.camera.from->path.text = beside_shot(shot.camera.from->path.text);
   read_camera_file(shot);
   return shot;

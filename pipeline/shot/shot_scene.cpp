@@ -80,7 +80,7 @@ Surface surface_at(const Shot& shot, const LayerSurface& surface, double frame) 
   }
   const auto* plate = std::get_if<PlateLayer>(&layer.kind);
   if (plate && plate->distance) return Card{value_at(*plate->distance, frame), surface.crossing};
-  return plate ? Surface(Plate{}) : Surface(LatLong{});
+  return plate ? Surface(Plate{plate->bent}) : Surface(LatLong{});
 }
 
 /// How often light may be seen to cross the layer.

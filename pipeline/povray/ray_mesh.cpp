@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/povray/ray_mesh.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "pipeline/povray/camera_include.h"
+
+namespace lensplane {
+namespace {
+
+/// Three corners round `middle` whose normal, (second - first) x (third - first), is along `direction`. Along
+/// the axis that the ray runs along most, the corners are as small numbers as the ray's slopes: rounding them
+/// to floats does the least harm.
+std::array<Vec3, 3> triangle(const Vec3& middle, const Vec3& direction, double size) {
+  const Vec3 a(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
+  const unsigned k = a.z >= a.x && a.z >= a.y ? 2 : a.y >= a.x ? 1 : 0, i = (k + 1) % 3, j = (k + 2) % 3;
+  // The plane with the normal (p, q, 1) in the axes (i, j, k).
+  const double p = direction[i] / direction[k], q = direction[j] / direction[k];
+  Vec3 first(0), second(0), third(0);
+  first[i] = -size, first[j] = -size, first[k] = size * (p + q);
+  second[i] = size, second[k] = -size * p;
+  third[j] = size, third[k] = -size * q;
+  if (direction[k] < 0.0) std::swap(second, third);
+  return {middle + first, middle + second, middle + third};
+}
+
+/// The depth, as a camera's z, at which most rays start: their median.
+double common_depth(std::span<const OutgoingRay> rays) {
+  std::vector<double> depths;
+  for (const OutgoingRay& ray : rays) {
+    if (!ray.lightless) depths.push_back(ray.start.z);
+  }
+  if (depths.empty()) return 0.0;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  return *middle;
+}
+
+void append(const Vec3& v, fmt::memory_buffer& text) {
+  fmt::format_to(std::back_inserter(text), "<{},{},{}>", static_cast<float>(v.x), static_cast<float>(v.y),
+                 static_cast<float>(v.z));
+}
+
+/// Text that is made of pieces in parallel.
+template <class Piece>
+void append_pieces(std::size_t count, Piece piece, std::string& text) {
+  constexpr std::size_t kPiece = 4096;
+  const std::size_t pieces = (count + kPiece - 1) / kPiece;
+  std::vector<fmt::memory_buffer> buffers(pieces);
+  tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t n) {
+    for (std::size_t i = n * kPiece; i < std::min(count, (n + 1) * kPiece); ++i) piece(i, buffers[n]);
+  });
+  for (const fmt::memory_buffer& buffer : buffers) text.append(buffer.data(), buffer.size());
+}
+
+/// From camera axes, at a depth, into the world, as POV-Ray has it: both axes are mirrored in z.
+std::string matrix_of(const Camera& camera, double depth, double unit_m) {
+  const auto row = [](const Vec3& v) {
+    const std::string vector = povray_vector(v);
+    return vector.substr(1, vector.size() - 2);
+  };
+  const std::string origin = povray_vector(camera.position + camera.axes.z * depth, unit_m);
+  return fmt::format("matrix <{}, {}, {}, {}>", row(camera.axes.x), row(camera.axes.y), row(-camera.axes.z),
+                     origin.substr(1, origin.size() - 2));
+}
+
+}  // namespace
+
+std::string ray_mesh(const Camera& camera, std::span<const OutgoingRay> rays, double unit_m) {
+  const double depth = common_depth(rays);
+  std::string text = "// The rays of a frame, written by lensplane: a triangle for each pixel.\n";
+  text += fmt::format("#declare lensplane_rays = mesh2 {{\nvertex_vectors {{ {},\n", 3 * rays.size());
+  append_pieces(
+      rays.size(),
+      [&](std::size_t i, fmt::memory_buffer& to) {
+        const OutgoingRay& ray = rays[i];
+        Vec3 middle = (ray.start - Vec3(0, 0, depth)) / unit_m, direction = ray.direction;
+        if (ray.lightless) middle = Vec3(0), direction = Vec3(0, 0, -1);
+        const double far = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)});
+        const double size = far > 0.0 ? far : 1.0;
+        // Mirrored, corners run the other way round.
+        const auto mirrored = [](const Vec3& v) { return Vec3(v.x, v.y, -v.z); };
+        for (const Vec3& corner : triangle(mirrored(middle), mirrored(direction), size)) {
+          append(corner, to);
+          to.push_back(',');
+        }
+        to.push_back('\n');
+      },
+      text);
+  text += fmt::format("}}\nface_indices {{ {},\n", rays.size());
+  append_pieces(
+      rays.size(),
+      [](std::size_t i, fmt::memory_buffer& to) {
+        fmt::format_to(std::back_inserter(to), "<{},{},{}>,\n", 3 * i, 3 * i + 1, 3 * i + 2);
+      },
+      text);
+  return text + "}\n" + matrix_of(camera, depth, unit_m) + "\n}\n";
+}
+
+}  // namespace lensplane
