@@ -23,14 +23,14 @@ OutgoingRay ray_by_planes(const Camera& camera, const Plan& plan, FilmPosition f
   return {path.segments.back().start, path.segments.back().direction, false};
 }
 
-/// Of the stretches between two planes the last is the one that leads on: the others are chords.
+/// Of the stretches between two planes the first leads on; the second is the chord round the next masses.
 OutgoingRay ray_after(const Camera& camera, const Plan& plan, std::size_t bends, FilmPosition film) {
   if (bends == 0) return {Vec3(0), direction_from_film<double>(camera, film), false};
   const RayPath<double> path = path_by_planes(camera, plan, film);
-  const auto segment = std::find_if(path.segments.rbegin(), path.segments.rend(),
-                                    [&](const auto& s) { return s.bends == static_cast<int>(bends); });
-  if (segment == path.segments.rend()) return {};
-  return {segment->start, segment->direction, false};
+  for (const RaySegment<double>& segment : path.segments) {
+    if (segment.bends == static_cast<int>(bends)) return {segment.start, segment.direction, false};
+  }
+  return {};
 }
 
 /// From the line that a curved ray approaches, past the last mass on its way.
