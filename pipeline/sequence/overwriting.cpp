@@ -55,6 +55,18 @@ std::set<std::string> inputs_of(const Shot& shot, const std::vector<int>& frames
 
 }  // namespace
 
+void refuse_overwriting_inputs(const Shot& shot, const std::vector<int>& frames,
+                               const std::vector<std::filesystem::path>& outputs) {
+  const std::set<std::string> inputs = inputs_of(shot, frames);
+  for (const std::filesystem::path& output : outputs) {
+    if (inputs.contains(spelled(output)))
+      throw Failure(ExitCode::BadShot,
+                    output.string() +
+                        ": the shot reads this file and would overwrite it; choose another "
+                        "--output");
+  }
+}
+
 void refuse_overwriting(const Shot& shot, const std::vector<int>& frames, const std::string& statistics) {
   const auto refuse = [](const std::string& path, const std::string& why) {
     throw Failure(ExitCode::BadShot,
