@@ -39,7 +39,7 @@ std::set<std::string> outputs_of(const Shot& shot, const std::vector<int>& frame
 std::set<std::string> inputs_of(const Shot& shot, const std::vector<int>& frames) {
   std::set<std::string> inputs = {spelled(shot.file)};
   if (shot.colour.config) inputs.insert(spelled(shot.colour.config->text));
-  if (shot.camera.from) inputs.insert(spelled(shot.camera.from->path.text));
+  if (shot.camera.from && !shot.camera.from->is_plate) inputs.insert(spelled(shot.camera.from->path.text));
   if (shot.colour.grade) inputs.insert(spelled(shot.colour.grade->cdl.text));
   for (const Layer& layer : shot.layers) {
     for (const LocatedText* file : files_of(layer)) {
