@@ -104,9 +104,9 @@ def leads_to(layer, uv, row):
     joined = node("CombineColor", 3, row)
     for i in range(2):
         value = parts.outputs[i]
+        value = math("MULTIPLY_ADD", value, (layer["scale"][i], layer["offset"][i]), 2, row)
         for operation, numbers in layer["edge"]:
             value = math(operation, value, numbers, 2, row)
-        value = math("MULTIPLY_ADD", value, (layer["scale"][i], layer["offset"][i]), 2, row)
         for operation, bounds in layer["bounds"]:
             value = math(operation, value, (bounds[i],), 2, row)
         tree.links.new(value, joined.inputs[i])

@@ -25,14 +25,21 @@ constexpr int kWidth = 96, kHeight = 64, kOverscan = 4;
 // differences, the globe's outline. Mirrored, upside down or with another gamma more than half of all pixels
 // would be off by more than this.
 constexpr double kSameColour = 0.01;
-constexpr double kMostDiffer = 0.11;  // share of pixels
-constexpr double kMeanDifference = 0.004;
+constexpr double kMostDiffer = 0.1;  // share of pixels
+constexpr double kMeanDifference = 0.003;
 
-/// A picture that tells left from right and up from down, and changes slowly. `file` says how it is stored.
-void write_smooth(const std::filesystem::path& file, int width, int height, bool with_alpha) {
-  OIIO::ImageBuf image(OIIO::ImageSpec(width, height, with_alpha ? 4 : 3, OIIO::TypeDesc::FLOAT));
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+/// A picture that tells left from right and up from down, and changes slowly, with so much overscan beyond
+/// its display window. `file` says how it is stored.
+void write_smooth(const std::filesystem::path& file, int width, int height, bool with_alpha,
+                  int overscan = 0) {
+  OIIO::ImageSpec spec(width + 2 * overscan, height + 2 * overscan, with_alpha ? 4 : 3,
+                       OIIO::TypeDesc::FLOAT);
+  spec.x = spec.y = -overscan;
+  spec.full_width = width;
+  spec.full_height = height;
+  OIIO::ImageBuf image(spec);
+  for (int y = -overscan; y < height + overscan; ++y) {
+    for (int x = -overscan; x < width + overscan; ++x) {
       const float u = (static_cast<float>(x) + 0.5F) / static_cast<float>(width),
                   v = (static_cast<float>(y) + 0.5F) / static_cast<float>(height);
       const float pixel[] = {0.2F + 0.6F * u, 0.2F + 0.6F * v,
@@ -51,7 +58,7 @@ struct HandedShot {
   std::filesystem::path file;
 
   HandedShot() {
-    write_smooth(folder / "bg.exr", 240, 160, false);
+    write_smooth(folder / "bg.exr", 240, 160, false, 16);
     write_smooth(folder / "veil.png", 120, 80, true);
     write_smooth(folder / "globe.png", 120, 60, false);
     file = folder.write("hand.yaml", R"(lensplane: 1
