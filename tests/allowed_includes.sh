@@ -15,7 +15,8 @@ declare -A allowed=(
   [pipeline/sequence]="pipeline/shot pipeline/composite pipeline/povray pipeline/colour"
   [pipeline/review]="pipeline/shot pipeline/composite pipeline/povray pipeline/colour pipeline/sequence"
   [pipeline/study]="pipeline/shot pipeline/composite pipeline/povray pipeline/colour pipeline/sequence"
-  [pipeline/cli]="pipeline/shot pipeline/composite pipeline/povray pipeline/colour pipeline/sequence pipeline/review pipeline/study"
+  [pipeline/handoff]="pipeline/shot pipeline/composite pipeline/colour pipeline/sequence"
+  [pipeline/cli]="pipeline/handoff pipeline/shot pipeline/composite pipeline/povray pipeline/colour pipeline/sequence pipeline/review pipeline/study"
 )
 
 failures=0

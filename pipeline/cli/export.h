@@ -8,7 +8,9 @@
 
 namespace lensplane {
 
-/// Writes the shot's camera to SHOT.chan in its folder, and says where. Throws Failure.
+/// Writes, in the shot's folder or --output, its camera to SHOT.chan, or what makes its picture from its
+/// maps: SHOT.nk, SHOT.blender.py or SHOT.oiio.json. Says where, and what other programs leave out. Throws
+/// Failure.
 void run_export(const Options& options);
 
 }  // namespace lensplane

@@ -28,6 +28,7 @@ Examples:
   lensplane map shot.yaml --output /tmp/maps              only the STMaps, for another compositor
   lensplane comp shot.yaml                                the picture once more from edited maps
   lensplane export shot.yaml --to chan                    the camera, as a file for other programs
+  lensplane export shot.yaml --to nuke                    a script that makes the picture from the maps
   lensplane warp shot.bg.map.1001.exr plate.exr out.exr   any STMap, applied to any image
   lensplane render shot.yaml --set camera.fov="2 deg" --set lenses.near.mass="10 Msun"
 
@@ -103,7 +104,7 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App* comp = app.add_subcommand("comp", "the picture from the maps on disk, edited ones, for example");
   CLI::App* warp = app.add_subcommand("warp", "apply any STMap to any image");
   CLI::App* probe = app.add_subcommand("probe", "one film position in full");
-  CLI::App* exporting = app.add_subcommand("export", "the shot's camera for other programs");
+  CLI::App* exporting = app.add_subcommand("export", "the shot's camera, or its maps, for other programs");
   const std::pair<CLI::App*, Command> commands[] = {
       {check, Command::Check}, {plan, Command::Plan},   {render, Command::Render},   {map, Command::Map},
       {comp, Command::Comp},   {probe, Command::Probe}, {exporting, Command::Export}};
@@ -113,10 +114,13 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
     app_of->callback([&options, command = command] { options.command = command; });
   }
   for (CLI::App* command : {render, map, comp}) add_rendering(*command, options);
-  exporting->add_option("--to", options.to, "chan: position, rotation and field of view of every frame")
+  exporting
+      ->add_option("--to", options.to,
+                   "chan: the camera; nuke, blender, oiio: a script that makes the picture from the maps")
       ->required()
-      ->check(CLI::IsMember({"chan"}));
-  exporting->add_option("--output", options.output, "the folder for the file")->check(refuse_empty);
+      ->check(CLI::IsMember({"chan", "nuke", "blender", "oiio"}));
+  exporting->add_option("--output", options.output, "the folder for what is written (else that of the maps)")
+      ->check(refuse_empty);
   for (CLI::App* command : {plan, probe}) command->add_flag("--json", options.json, "for programs: as JSON");
   warp->callback([&options] { options.command = Command::Warp; });
   warp->footer(kExamples);

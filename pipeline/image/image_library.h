@@ -17,6 +17,7 @@
 
 #include "pipeline/image/display_writer.h"
 #include "pipeline/image/encoded_image.h"
+#include "pipeline/image/image_outline.h"
 #include "pipeline/image/map_reader.h"
 #include "pipeline/image/tiled_image.h"
 
@@ -26,6 +27,7 @@ namespace lensplane {
 struct ImageLibrary {
   const char* version;  // of the lensplane that it belongs to
   EncodedImage (*read_image)(const std::filesystem::path&, const ImageChoice&);
+  ImageOutline (*read_outline)(const std::filesystem::path&, const ImageChoice&);
   bool (*is_larger_than_memory)(const std::filesystem::path&, const ImageChoice&);
   std::shared_ptr<const TiledImage> (*open_tiled_image)(const std::filesystem::path&, std::size_t,
                                                         const ImageChoice&);

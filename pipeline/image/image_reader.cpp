@@ -10,6 +10,10 @@ EncodedImage read_image(const std::filesystem::path& path, const ImageChoice& ch
   return image_library().read_image(path, choice);
 }
 
+ImageOutline read_outline(const std::filesystem::path& path, const ImageChoice& choice) {
+  return image_library().read_outline(path, choice);
+}
+
 std::string read_interop_id(const std::filesystem::path& path) {
   const std::filesystem::path extension = path.extension();
   if (extension == ".jpg" || extension == ".jpeg") return {};  // JPEG has no place for it

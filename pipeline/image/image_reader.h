@@ -10,6 +10,7 @@
 
 #include "pipeline/image/encoded_image.h"
 #include "pipeline/image/image_choice.h"
+#include "pipeline/image/image_outline.h"
 
 namespace lensplane {
 
@@ -20,6 +21,9 @@ inline constexpr std::size_t kMaxImagePixels = std::size_t{1} << 29;
 /// part's. Throws Failure (BadInput) with the path and the reason: which layers and parts there are, if there
 /// is not the one that is chosen.
 EncodedImage read_image(const std::filesystem::path& path, const ImageChoice& choice = {});
+
+/// The same without its pixels, from its header alone. Throws Failure (BadInput) as read_image.
+ImageOutline read_outline(const std::filesystem::path& path, const ImageChoice& choice = {});
 
 /// The colorInteropID that an image says about itself, read from its header alone; empty when it says none,
 /// or cannot be read.

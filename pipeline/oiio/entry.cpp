@@ -15,8 +15,9 @@
 namespace lensplane::oiio {
 namespace {
 
-constexpr ImageLibrary kLibrary = {kVersion,    read_image,    is_larger_than_memory, open_tiled_image,
-                                   read_st_map, read_map_data, read_attribute,        png_bytes};
+constexpr ImageLibrary kLibrary = {kVersion,         read_image,  read_outline,  is_larger_than_memory,
+                                   open_tiled_image, read_st_map, read_map_data, read_attribute,
+                                   png_bytes};
 
 }  // namespace
 

@@ -16,9 +16,7 @@ namespace {
   throw Failure(ExitCode::BadInput, fmt::format("{}: cannot be read as an image: {}", path.string(), reason));
 }
 
-}  // namespace
-
-EncodedImage read_image(const std::filesystem::path& path, const ImageChoice& choice) {
+std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path) {
   std::error_code status;
   if (!std::filesystem::exists(path, status)) {
     throw Failure(ExitCode::BadInput, fmt::format("{}: no such image", path.string()));
@@ -26,8 +24,15 @@ EncodedImage read_image(const std::filesystem::path& path, const ImageChoice& ch
   OIIO::ImageSpec as_stored;
   as_stored["oiio:UnassociatedAlpha"] =
       1;  // else 8-bit colours would be premultiplied before they are linear
-  const auto input = OIIO::ImageInput::open(path.string(), &as_stored);
+  auto input = OIIO::ImageInput::open(path.string(), &as_stored);
   if (!input) refuse(path, OIIO::geterror());
+  return input;
+}
+
+}  // namespace
+
+EncodedImage read_image(const std::filesystem::path& path, const ImageChoice& choice) {
+  const auto input = open_image(path);
   const int part = part_of(path, *input, choice);
   const OIIO::ImageSpec spec = input->spec(part);
   const PixelLayout layout = pixel_layout(path, spec, input->format_name(), choice);
@@ -41,6 +46,20 @@ EncodedImage read_image(const std::filesystem::path& path, const ImageChoice& ch
   if (!input->read_image(part, 0, layout.first, end, oiio_type(layout.type), file.data()))
     refuse(path, input->geterror());
   return packed(layout, windows_of(spec), file);
+}
+
+ImageOutline read_outline(const std::filesystem::path& path, const ImageChoice& choice) {
+  const auto input = open_image(path);
+  const int part = part_of(path, *input, choice);
+  const OIIO::ImageSpec spec = input->spec(part);
+  const PixelLayout layout = pixel_layout(path, spec, input->format_name(), choice);
+  const auto name = [&](int channel) { return spec.channel_name(layout.first + channel); };
+  const auto& [red, green, blue] = layout.colours;
+  return {windows_of(spec),
+          part,
+          {name(red), name(green), name(blue)},
+          layout.alpha < 0 ? "" : name(layout.alpha),
+          layout.premultiplied};
 }
 
 std::string read_attribute(const std::filesystem::path& path, const char* name) {

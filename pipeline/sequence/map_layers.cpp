@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "pipeline/composite/map_jacobian.h"
@@ -40,7 +41,8 @@ StMap read_map_of(const Camera& camera, const std::filesystem::path& path) {
   return map;
 }
 
-/// How far away a surface is as a whole.
+}  // namespace
+
 double distance_of(const Surface& surface, const Vec3& camera) {
   if (const auto* sphere = std::get_if<Sphere>(&surface)) return (sphere->centre - camera).length();
   if (const auto* ring = std::get_if<Ring>(&surface)) return (ring->centre - camera).length();
@@ -48,7 +50,22 @@ double distance_of(const Surface& surface, const Vec3& camera) {
   return std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
+std::vector<std::size_t> depth_order(const Shot& shot, int frame) {
+  const Scene scene = scene_at(shot, frame);
+  const auto surfaces = map_surfaces_of(shot);
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+    if (surfaces[k]) order.push_back(k);
+  }
+  const auto surface_of = [&](std::size_t k) -> const Surface& { return scene.surfaces[*surfaces[k]]; };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const double of_a = distance_of(surface_of(a), scene.camera.position),
+                 of_b = distance_of(surface_of(b), scene.camera.position);
+    if (of_a != of_b) return of_a > of_b;
+    return std::holds_alternative<LatLong>(surface_of(a)) && !std::holds_alternative<LatLong>(surface_of(b));
+  });
+  return order;
+}
 
 std::vector<MapLayer> load_map_layers(const Shot& shot, const Scene& scene,
                                       const std::vector<SurfaceLook>& looks, int frame) {

@@ -13,6 +13,13 @@
 
 namespace lensplane {
 
+/// How far away a surface is as a whole, in metres: the distance of its centre, or infinity.
+double distance_of(const Surface& surface, const Vec3& camera);
+
+/// The layers that have maps (indices into Shot::layers), farthest first, as far as pixels do not say: skies,
+/// plates, then what is nearer and nearer as a whole.
+std::vector<std::size_t> depth_order(const Shot& shot, int frame);
+
 /// Reads the maps of all layers that have one, and what their data files say of jacobian and depth. `looks`
 /// in the order of the scene's surfaces. Throws Failure (BadInput) when a map is missing, broken, or has
 /// other windows than the shot's camera.

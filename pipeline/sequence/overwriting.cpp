@@ -40,7 +40,7 @@ std::set<std::string> outputs_of(const Shot& shot, const std::vector<int>& frame
 std::set<std::string> inputs_of(const Shot& shot, const std::vector<int>& frames) {
   std::set<std::string> inputs = {spelled(shot.file)};
   if (shot.colour.config) inputs.insert(spelled(shot.colour.config->text));
-  if (shot.camera.from) inputs.insert(spelled(shot.camera.from->path.text));
+  if (shot.camera.from && !shot.camera.from->is_plate) inputs.insert(spelled(shot.camera.from->path.text));
   if (shot.colour.grade) inputs.insert(spelled(shot.colour.grade->cdl.text));
   for (const Layer& layer : shot.layers) {
     for (const LocatedText* file : files_of(layer)) {
@@ -55,6 +55,18 @@ std::set<std::string> inputs_of(const Shot& shot, const std::vector<int>& frames
 }
 
 }  // namespace
+
+void refuse_overwriting_inputs(const Shot& shot, const std::vector<int>& frames,
+                               const std::vector<std::filesystem::path>& outputs) {
+  const std::set<std::string> inputs = inputs_of(shot, frames);
+  for (const std::filesystem::path& output : outputs) {
+    if (inputs.contains(spelled(output)))
+      throw Failure(ExitCode::BadShot,
+                    output.string() +
+                        ": the shot reads this file and would overwrite it; choose another "
+                        "--output");
+  }
+}
 
 void refuse_overwriting(const Shot& shot, const std::vector<int>& frames, const std::string& statistics) {
   const auto refuse = [](const std::string& path, const std::string& why) {

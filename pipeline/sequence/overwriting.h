@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,9 @@ namespace lensplane {
 /// (empty: none), is the shot file, its OCIO config, or a file of its layers, or when `statistics` is one
 /// of the other outputs.
 void refuse_overwriting(const Shot& shot, const std::vector<int>& frames, const std::string& statistics);
+
+/// Throws Failure (BadShot) when one of `outputs` is a file that these frames of the shot are made from.
+void refuse_overwriting_inputs(const Shot& shot, const std::vector<int>& frames,
+                               const std::vector<std::filesystem::path>& outputs);
 
 }  // namespace lensplane

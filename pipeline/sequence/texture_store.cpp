@@ -27,14 +27,6 @@ std::optional<TextureStore::StandIn> stand_in_of(const LayerImage& image, int fr
   return TextureStore::StandIn{later == frames.begin() ? *later : *(later - 1)};
 }
 
-/// The file that is shown at a frame; nothing for black.
-std::optional<std::string> file_of(const LayerImage& image, int frame) {
-  const auto stand_in = stand_in_of(image, frame);
-  if (!stand_in) return path_of(image.pattern, frame);
-  if (!stand_in->frame) return std::nullopt;
-  return path_of(image.pattern, *stand_in->frame);
-}
-
 void require_file(const std::string& path, const std::string& noun) {
   if (!std::filesystem::exists(path)) throw Failure(ExitCode::BadInput, path + ": no such " + noun);
 }
@@ -57,6 +49,13 @@ Wrap wrap_of(const Layer& layer) {
 }
 
 }  // namespace
+
+std::optional<std::string> file_shown(const LayerImage& image, int frame) {
+  const auto stand_in = stand_in_of(image, frame);
+  if (!stand_in) return path_of(image.pattern, frame);
+  if (!stand_in->frame) return std::nullopt;
+  return path_of(image.pattern, *stand_in->frame);
+}
 
 std::shared_ptr<const Texture> TextureStore::texture(std::size_t index, int frame) {
   const Layer& layer = shot_.layers[index];
@@ -86,7 +85,7 @@ std::string TextureStore::digest(std::size_t index, int frame) {
 
 Texture TextureStore::read(const LayerImage& image, Wrap wrap, int frame) const {
   return located_in_shot(image.pattern, [&] {
-    const auto file = file_of(image, frame);
+    const auto file = file_shown(image, frame);
     if (!file) return Texture(Picture{1, 1, 0, 0, 1, 1, {Rgba{0, 0, 0, 0}}}, wrap);
     const std::string& path = *file;
     const ImageEncoding encoding = encoding_of(image, path);
@@ -121,7 +120,7 @@ std::shared_ptr<const Texture> TextureStore::load(const LayerImage& image, Wrap 
 std::string TextureStore::digest_of(const LayerImage& image, Wrap wrap, int frame) {
   const auto compute = [&] {
     return located_in_shot(image.pattern, [&] {
-      const auto file = file_of(image, frame);
+      const auto file = file_shown(image, frame);
       if (!file) return Fingerprint().add("black").digest();
       const std::string& path = *file;
       require_file(path, "image");

@@ -15,6 +15,9 @@
 
 namespace lensplane {
 
+/// The file that an image shows at a frame, which may be that of another one; nothing for black.
+std::optional<std::string> file_shown(const LayerImage& image, int frame);
+
 /// Safe to use from many threads. Still images are kept; those of sequences as long as their frame uses them.
 /// Of images larger than memory (tiled_image.h) no more than kTileBytes are held together.
 class TextureStore {

@@ -159,7 +159,7 @@ GlowTrack read_glow(const Value& glow) {
   return track;
 }
 
-CameraFile read_from(const Value& from, const Value& camera, Projection projection) {
+CameraFile read_from(const Value& from, const Value& camera, Projection projection, const ShotNames& names) {
   if (projection != Projection::Perspective)
     from.refuse("given for a camera that is not perspective; allowed: with perspective only");
   for (const char* key : {"position", "look_at", "rotation", "up"}) {
@@ -169,18 +169,27 @@ CameraFile read_from(const Value& from, const Value& camera, Projection projecti
   CameraFile file;
   Value path = from;
   if (from.is_map()) {
-    from.only_keys({"file", "unit"});
-    path = from.require("file", "the path of a .chan file");
+    from.only_keys({"file", "plate", "unit"});
+    const auto plate = from.find("plate");
+    if (plate && from.find("file")) plate->refuse("given together with file; allowed: one of the two");
+    path = plate ? *plate : from.require("file", "the path of a .chan file, or plate: a layer");
+    if (plate) file.plate = find_name<LayerIndex>(names.layers, plate->text());
+    if (plate && !file.plate)
+      plate->refuse(in_quotes(plate->text()) + " is no layer of this shot; allowed: a plate");
     if (const auto unit = from.find("unit")) file.unit = unit->positive(Dimension::Length);
   }
   file.path = {path.text(), path.location(), path.key()};
+  file.is_plate = file.plate || (!from.is_map() && path.text() == "plate");
+  if (file.is_plate) file.path.text.clear();
+  if (!file.is_plate && !path.text().ends_with(".chan"))
+    path.refuse(in_quotes(path.text()) + "; allowed: the path of a .chan file, plate, or {plate: LAYER}");
   file.fov_is_given = camera.find("fov") || camera.find("focal_length");
   return file;
 }
 
 }  // namespace
 
-CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not_yet) {
+CameraTrack read_camera(const Value& camera, const ShotNames& names) {
   camera.only_keys({"projection", "resolution", "fov", "focal_length", "film_width", "position", "look_at",
                     "rotation", "up", "overscan", "shutter", "from", "glow"});
   CameraTrack track;
@@ -190,9 +199,7 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names, NotYet& not
   track.width = size[0].integer(1, kMaxResolution);
   track.height = size[1].integer(1, kMaxResolution);
   const auto from = camera.find("from");
-  if (from) track.from = read_from(*from, camera, track.projection);
-  if (from && !track.from->path.text.ends_with(".chan"))
-    not_yet.add(*from, "a camera from this; write the path of a .chan file");
+  if (from) track.from = read_from(*from, camera, track.projection, names);
   if (!from || track.from->fov_is_given) track.fov = read_field_of_view(camera, track.projection);
   if (const auto position = camera.find("position"))
     track.position = read_keyed_vector(*position, Dimension::Length);

@@ -69,11 +69,14 @@ struct Shutter {
   int samples = 1;
 };
 
-/// A file of another program that a camera's position, rotation and field of view are taken from.
+/// What a camera's position, rotation and field of view are taken from: a file of another program, or what
+/// the images of a plate say.
 struct CameraFile {
-  LocatedText path;           // .chan
-  double unit = 1;            // metres that one unit of length of the file is
-  bool fov_is_given = false;  // by the shot
+  LocatedText path;  // .chan; of a plate: empty
+  bool is_plate = false;
+  std::optional<LayerIndex> plate;  // nothing: the only one
+  double unit = 1;                  // metres that one unit of length of the file is
+  bool fov_is_given = false;        // by the shot
 };
 
 struct CameraTrack {

@@ -204,7 +204,7 @@ Shot shot_from_yaml(const YamlNode& tree) {
     for (const Value& lens : lenses->items()) shot.lenses.push_back(read_lens(lens));
   }
   for (const Value& item : layers.items()) shot.layers.push_back(read_layer(item, names));
-  shot.camera = read_camera(root.require("camera", "a map with resolution, fov, ..."), names, not_yet);
+  shot.camera = read_camera(root.require("camera", "a map with resolution, fov, ..."), names);
   shot.trace = read_trace(root.find("trace"), shot.camera.projection);
   shot.sampling = read_sampling(root);
   shot.colour = read_colour(root);
@@ -234,7 +234,8 @@ Shot read_shot(const std::filesystem::path& path, const std::vector<std::string>
   if (shot.colour.config) shot.colour.config->text = beside_shot(shot.colour.config->text);
   shot.output.directory = beside_shot(shot.output.directory.string());
   put_plates(shot);
-  if (shot.camera.from) shot.camera.from->path.text = beside_shot(shot.camera.from->path.text);
+  if (shot.camera.from && !shot.camera.from->is_plate)
+    shot.camera.from->path.text = beside_shot(shot.camera.from->path.text);
   read_camera_file(shot);
   return shot;
 }

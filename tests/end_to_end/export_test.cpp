@@ -48,6 +48,31 @@ TEST(Export, ACameraThatWentThroughAFileSeesTheSame) {
   }
 }
 
+/// What lensplane renders is a plate that says where the camera was, moved and turned, at every frame.
+TEST(Export, APlateSaysWhereItsCameraWas) {
+  const TemporaryFolder folder;
+  const auto keyed = folder.write(
+      "keyed.yaml",
+      shot_of("fov: 40 deg, rotation: {keys: {1: [5 deg, -170 deg, 30 deg], 2: [-40 deg, 150 deg, "
+              "-10 deg]}}, position: {keys: {1: [7e5 m, -3e5 m, 2e5 m], 2: [1e6 m, 2e6 m, 1e6 m]}}"));
+  ASSERT_EQ(lensplane({"render", keyed.string(), "--quiet"}).err, "");
+  const auto from = folder.write("from.yaml", R"(lensplane: 1
+shot: again
+frames: 1-2
+camera: {resolution: [60, 40], from: plate, fov: 40 deg}
+layers: [{name: bg, type: plate, image: out/moved.####.exr}]
+)");
+  EXPECT_EQ(lensplane({"check", from.string()}).err, "");
+  for (const auto& shot : {keyed, from})
+    ASSERT_EQ(lensplane({"export", shot.string(), "--to", "chan", "--output", folder.path().string()}).err,
+              "");
+  std::istringstream a(contents_of(folder / "moved.chan")), b(contents_of(folder / "again.chan"));
+  int numbers = 0;
+  for (double of_a = 0, of_b = 0; a >> of_a && b >> of_b; ++numbers)
+    EXPECT_NEAR(of_a, of_b, 1e-6 * std::max(180.0, 4 * std::abs(of_a))) << numbers;
+  EXPECT_EQ(numbers, 16);
+}
+
 TEST(Export, RefusesInOneLine) {
   const TemporaryFolder folder;
   const auto from = folder.write("moved.yaml", shot_of("from: moved.chan"));

@@ -100,7 +100,8 @@ TEST(CameraFile, RefusesWhatDoesNotFit) {
               HasSubstr("camera.from: given for a camera that is not perspective"));
   EXPECT_THAT(Tracked("from: {file: track.chan, unit: 0 m}", good).refusal(),
               HasSubstr("camera.from.unit: "));
-  EXPECT_THAT(Tracked("from: plate", good).refusal(), HasSubstr("not available yet"));
+  EXPECT_THAT(Tracked("from: track.fbx", good).refusal(),
+              HasSubstr("allowed: the path of a .chan file, plate, or {plate: LAYER}"));
 }
 
 /// Whatever the camera does, its file says the same.

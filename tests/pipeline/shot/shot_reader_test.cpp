@@ -309,7 +309,6 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
 
 TEST(ShotReader, SaysWhatIsNotAvailableYet) {
   const std::pair<const char*, const char*> later[] = {
-      {"camera.from=plate", "camera.from: not available yet"},
       {"layers.background={name: p, type: povray, scene: a.pov, as: plate, distance: 2e9 m}",
        "layers.p.type: not available yet: povray"},
       {"output.movie=mp4", "output.movie: not available yet: mp4"},
