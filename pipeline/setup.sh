@@ -9,6 +9,7 @@ packages=(
   libboost-dev libyaml-cpp-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   openimageio-tools jq clang-format
+  povray povray-includes
 )
 
 missing=()

@@ -36,9 +36,10 @@ void PovRayLog::add(const std::string& line, Clock::time_point now) {
     return;
   }
   if (kinds_.size() < kKindsKept && kinds_.insert(without_digits(line)).second) last_progress_ = now;
-  const bool error =
-      line.find("Error") != std::string::npos || line.find("rror in parser") != std::string::npos;
-  if (error) errors_.push_back(line);
+  // Long lines are wrapped: what is wrong goes on from its first line to the last.
+  const bool error = line.find("Error:") != std::string::npos && line.find("Possible") == std::string::npos;
+  const bool said_all = line.starts_with("Fatal error") || line.starts_with("Render failed");
+  if ((error || !errors_.empty()) && !said_all && errors_.size() < kLinesKept) errors_.push_back(line);
   if (line.find("Warning:") != std::string::npos && line.find("experimental feature") == std::string::npos)
     warnings_.push_back(line);
   lines_.push_back(line);

@@ -94,8 +94,8 @@ const Layer& plate_of(const Shot& shot, const CameraFile& from) {
   std::vector<const Layer*> plates;
   for (std::size_t k = 0; k < shot.layers.size(); ++k) {
     const Layer& layer = shot.layers[k];
-    const bool is_plate =
-        std::holds_alternative<PlateLayer>(layer.kind) && layer.image.pattern.text.ends_with(".exr");
+    const bool is_plate = std::holds_alternative<PlateLayer>(layer.kind) && !layer.povray &&
+                          layer.image.pattern.text.ends_with(".exr");
     if (is_plate && (!from.plate || from.plate->index == k)) plates.push_back(&layer);
   }
   if (plates.size() == 1) return *plates.front();

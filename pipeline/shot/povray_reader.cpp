@@ -43,6 +43,7 @@ Layer read_povray_layer(const Value& layer, const std::string& name) {
   if (scene.as != PovRayAs::LatLong) {
     PlateLayer plate = read_plate(layer);
     plate.bent = scene.as == PovRayAs::Bent;
+    if (plate.bent) plate.edge = Edge::Clamp;  // it ends with the film
     result.kind = plate;
   }
   return result;

@@ -34,8 +34,9 @@ inline pid_t start_program(const std::vector<std::string>& words, const Temporar
                            const std::vector<std::string>& environment = {}) {
   std::vector<char*> arguments, variables;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  for (char** variable = environ; *variable; ++variable) variables.push_back(*variable);
+  // Of two values of a variable the first counts.
   for (const std::string& variable : environment) variables.push_back(const_cast<char*>(variable.c_str()));
+  for (char** variable = environ; *variable; ++variable) variables.push_back(*variable);
   arguments.push_back(nullptr);
   variables.push_back(nullptr);
   posix_spawn_file_actions_t files;

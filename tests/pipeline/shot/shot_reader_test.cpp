@@ -309,8 +309,6 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
 
 TEST(ShotReader, SaysWhatIsNotAvailableYet) {
   const std::pair<const char*, const char*> later[] = {
-      {"layers.background={name: p, type: povray, scene: a.pov, as: plate, distance: 2e9 m}",
-       "layers.p.type: not available yet: povray"},
       {"output.movie=mp4", "output.movie: not available yet: mp4"},
   };
   for (const auto& [setting, expected] : later) {
@@ -322,13 +320,48 @@ TEST(ShotReader, SaysWhatIsNotAvailableYet) {
               HasSubstr("s.yaml:22:10: output.movie: not"));
 }
 
+TEST(ShotReader, ReadsWhatPovRayIsToDo) {
+  const Shot shot =
+      example_shot({"layers.background={name: p, type: povray, scene: a.pov, distance: 2e9 m, unit: 1 km, "
+                    "edge: mirror, antialias: 4, timeout: 2 min}"});
+  const Layer& layer = shot.layers[1];
+  ASSERT_TRUE(layer.povray);
+  EXPECT_EQ(layer.povray->as, PovRayAs::Plate);
+  EXPECT_EQ(layer.povray->unit_m, 1000.0);
+  EXPECT_EQ(layer.povray->antialias, 4);
+  EXPECT_EQ(layer.povray->timeout_s, 120.0);
+  const auto& plate = std::get<PlateLayer>(layer.kind);
+  EXPECT_TRUE(plate.distance && !plate.bent);
+  EXPECT_EQ(plate.edge, Edge::Mirror);
+  const Shot bent = example_shot({"layers.background={name: p, type: povray, scene: a.pov, as: bent}"});
+  EXPECT_TRUE(std::get<PlateLayer>(bent.layers[1].kind).bent);
+  EXPECT_EQ(bent.layers[1].povray->antialias, PovRayScene::kBentAntialias);
+  const Shot sky =
+      example_shot({"layers.background={name: p, type: povray, scene: a.pov, as: latlong, width: 512}"});
+  EXPECT_TRUE(std::holds_alternative<LatLongLayer>(sky.layers[1].kind));
+  EXPECT_EQ(sky.layers[1].povray->width, 512);
+}
+
+TEST(ShotReader, RefusesWhatPovRayCannotDo) {
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"scene: a.pov, as: card", "allowed: plate, latlong, bent"},
+      {"as: plate", "scene: missing"},
+      {"scene: a.pov, distance: -3 m", "not greater than 0"},
+      {"scene: a.pov, as: bent, distance: 3 m", "has a meaning only with as: plate"},
+      {"scene: a.pov, as: bent, edge: clamp", "has a meaning only with as: plate"},
+      {"scene: a.pov, width: 512", "has a meaning only with as: latlong"},
+      {"scene: a.pov, as: latlong, width: 511", "is odd"},
+      {"scene: a.pov, antialias: 9", "a whole number from 1 to 8"},
+      {"scene: a.pov, unit: 0 m", "not greater than 0"},
+      {"scene: a.pov, timeout: 3", "a time is needed, in s, min, h"},
+      {"scene: a.pov, image: b.exr", "unknown key"},
+  };
+  for (const auto& [keys, reason] : mistakes)
+    EXPECT_THAT(line_for_setting(std::string("layers.background={name: p, type: povray, ") + keys + "}"),
+                HasSubstr(reason));
+}
+
 TEST(ShotReader, WhatIsNotAvailableYetIsStillChecked) {
-  EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, scene: a.pov, as: card}"),
-              HasSubstr("allowed: plate, latlong"));
-  EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, as: plate}"),
-              HasSubstr("scene: missing"));
-  EXPECT_THAT(line_for_setting("layers.background={name: p, type: povray, scene: a.pov, distance: -3 m}"),
-              HasSubstr("not greater than 0"));
   // A mistake comes before what is not available.
   const Refusal refusal = refusal_of([&] { example_shot({"output.movie=mp4", "output.review=jpeg"}); });
   EXPECT_THAT(refusal.line, HasSubstr("allowed: none, png"));
