@@ -34,7 +34,8 @@ Plates plates_at(const Shot& shot, int frame) {
   const auto of_layers = map_surfaces_of(shot);
   std::vector<Surface> surfaces;
   for (std::size_t k = 0; k < shot.layers.size(); ++k) {
-    if (!std::holds_alternative<PlateLayer>(shot.layers[k].kind)) continue;
+    // What POV-Ray renders is as large as it has to be.
+    if (!std::holds_alternative<PlateLayer>(shot.layers[k].kind) || shot.layers[k].povray) continue;
     plates.layers.push_back(k);
     surfaces.push_back(plates.scene.surfaces[*of_layers[k]]);
   }
