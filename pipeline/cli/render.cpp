@@ -12,6 +12,7 @@
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/failure.h"
 #include "pipeline/image/image_library.h"
+#include "pipeline/sequence/image_rates.h"
 #include "pipeline/sequence/make_plates.h"
 #include "pipeline/sequence/overwriting.h"
 #include "pipeline/sequence/plate_margins.h"
@@ -62,6 +63,7 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
                          .redo = options.redo,
                          .from_maps = options.command == Command::Comp};
   if (!options.quiet) {
+    for (const std::string& line : other_rates(shot, frames)) std::fputs((line + "\n").c_str(), stdout);
     for (const PlateMargin& margin : worst_margins(shot, frames)) {
       std::fputs((line_of(margin) + "\n").c_str(), stdout);
     }

@@ -8,7 +8,9 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfRationalAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
@@ -164,6 +166,16 @@ std::optional<std::string> read_exr_attribute(const std::filesystem::path& path,
   file.setFrameBuffer(frame);
   file.readPixels(data.max.y);
   return attribute->value();
+} catch (const std::exception&) {
+  return std::nullopt;
+}
+
+std::optional<Rational> read_frame_rate(const std::filesystem::path& path) try {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const Imf::MultiPartInputFile file(path.c_str());
+  const auto* rate = file.header(0).findTypedAttribute<Imf::RationalAttribute>("framesPerSecond");
+  if (!rate || rate->value().n <= 0 || rate->value().d == 0) return std::nullopt;
+  return Rational{rate->value().n, static_cast<int>(rate->value().d)};
 } catch (const std::exception&) {
   return std::nullopt;
 }

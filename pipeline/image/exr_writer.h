@@ -60,4 +60,8 @@ std::size_t write_exr_picture(const std::filesystem::path& path, const Picture& 
 /// such attribute, or the file breaks off.
 std::optional<std::string> read_exr_attribute(const std::filesystem::path& path, const std::string& name);
 
+/// The framesPerSecond of a file, from its header alone; nothing when it has none that is a rate, or is no
+/// EXR file.
+std::optional<Rational> read_frame_rate(const std::filesystem::path& path);
+
 }  // namespace lensplane

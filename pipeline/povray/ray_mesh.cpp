@@ -31,16 +31,39 @@ std::array<Vec3, 3> triangle(const Vec3& middle, const Vec3& direction, double s
   return {middle + first, middle + second, middle + third};
 }
 
-/// The depth, as a camera's z, at which most rays start: their median.
-double common_depth(std::span<const OutgoingRay> rays) {
-  std::vector<double> depths;
-  for (const OutgoingRay& ray : rays) {
-    if (!ray.lightless) depths.push_back(ray.start.z);
-  }
-  if (depths.empty()) return 0.0;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// Where most rays start: how deep, as a camera's z, and how far from its axis. Triangles no smaller than
+/// that lose nothing by what is left of a ray's depth.
+struct Starts {
+  double depth = 0, aside = 0;  // metres
+};
+
+/// Starts this near to the common depth, as a share of it, are moved there along their rays: nothing stands
+/// so near to a plane of masses that it would be lost.
+constexpr double kSameDepth = 1e-3;
+
+/// Where a ray starts, from the common depth.
+Vec3 start_of(const OutgoingRay& ray, double depth) {
+  const double off = depth - ray.start.z;
+  const bool near = ray.direction.z < 0.0 && std::abs(off) <= kSameDepth * std::abs(depth);
+  const Vec3 start = near ? ray.start + ray.direction * (off / ray.direction.z) : ray.start;
+  return {start.x, start.y, near ? 0.0 : start.z - depth};
+}
+
+Starts starts_of(std::span<const OutgoingRay> rays) {
+  std::vector<double> depths, asides;
+  for (const OutgoingRay& ray : rays) {
+    if (ray.lightless) continue;
+    depths.push_back(ray.start.z);
+    asides.push_back(std::max(std::abs(ray.start.x), std::abs(ray.start.y)));
+  }
+  return {median(std::move(depths)), median(std::move(asides))};
 }
 
 void append(const Vec3& v, fmt::memory_buffer& text) {
@@ -74,16 +97,17 @@ std::string matrix_of(const Camera& camera, double depth, double unit_m) {
 }  // namespace
 
 std::string ray_mesh(const Camera& camera, std::span<const OutgoingRay> rays, double unit_m) {
-  const double depth = common_depth(rays);
+  const Starts starts = starts_of(rays);
   std::string text = "// The rays of a frame, written by lensplane: a triangle for each pixel.\n";
   text += fmt::format("#declare lensplane_rays = mesh2 {{\nvertex_vectors {{ {},\n", 3 * rays.size());
   append_pieces(
       rays.size(),
       [&](std::size_t i, fmt::memory_buffer& to) {
         const OutgoingRay& ray = rays[i];
-        Vec3 middle = (ray.start - Vec3(0, 0, depth)) / unit_m, direction = ray.direction;
+        Vec3 middle = start_of(ray, starts.depth) / unit_m, direction = ray.direction;
         if (ray.lightless) middle = Vec3(0), direction = Vec3(0, 0, -1);
-        const double far = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)});
+        const double far =
+            std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z), starts.aside / unit_m});
         const double size = far > 0.0 ? far : 1.0;
         // Mirrored, corners run the other way round.
         const auto mirrored = [](const Vec3& v) { return Vec3(v.x, v.y, -v.z); };
@@ -101,7 +125,7 @@ std::string ray_mesh(const Camera& camera, std::span<const OutgoingRay> rays, do
         fmt::format_to(std::back_inserter(to), "<{},{},{}>,\n", 3 * i, 3 * i + 1, 3 * i + 2);
       },
       text);
-  return text + "}\n" + matrix_of(camera, depth, unit_m) + "\n}\n";
+  return text + "}\n" + matrix_of(camera, starts.depth, unit_m) + "\n}\n";
 }
 
 }  // namespace lensplane

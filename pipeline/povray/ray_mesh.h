@@ -17,6 +17,11 @@
 
 namespace lensplane {
 
+/// How far a ray's slopes to the camera's axis are off in the mesh, as a share of the largest slope of those
+/// that start about as deep; and how far it passes from where it should, as a share of how far from the axis
+/// most start.
+inline constexpr double kMeshError = 5e-7;
+
 /// The text of lensplane_rays.inc, which declares the mesh `lensplane_rays`; pixels row by row. Pixels
 /// without light get any ray: what they show means nothing. Lengths in the scene's unit.
 std::string ray_mesh(const Camera& camera, std::span<const OutgoingRay> rays, double unit_m);
