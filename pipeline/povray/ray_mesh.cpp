@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ostream>
 #include <vector>
 
 #include "pipeline/povray/camera_include.h"
@@ -71,16 +72,23 @@ void append(const Vec3& v, fmt::memory_buffer& text) {
                  static_cast<float>(v.z));
 }
 
-/// Text that is made of pieces in parallel.
+/// Writes text that is made of pieces in parallel, some at a time: fresh memory would take longer than all
+/// else.
 template <class Piece>
-void append_pieces(std::size_t count, Piece piece, std::string& text) {
-  constexpr std::size_t kPiece = 4096;
+void write_pieces(std::size_t count, Piece piece, std::ostream& to) {
+  constexpr std::size_t kPiece = 1024, kAtOnce = 256;
   const std::size_t pieces = (count + kPiece - 1) / kPiece;
-  std::vector<fmt::memory_buffer> buffers(pieces);
-  tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t n) {
-    for (std::size_t i = n * kPiece; i < std::min(count, (n + 1) * kPiece); ++i) piece(i, buffers[n]);
-  });
-  for (const fmt::memory_buffer& buffer : buffers) text.append(buffer.data(), buffer.size());
+  std::vector<fmt::memory_buffer> buffers(kAtOnce);
+  for (std::size_t first = 0; first < pieces; first += kAtOnce) {
+    const std::size_t present = std::min(kAtOnce, pieces - first);
+    tbb::parallel_for(std::size_t{0}, present, [&](std::size_t n) {
+      buffers[n].clear();
+      const std::size_t begin = (first + n) * kPiece;
+      for (std::size_t i = begin; i < std::min(count, begin + kPiece); ++i) piece(i, buffers[n]);
+    });
+    for (std::size_t n = 0; n < present; ++n)
+      to.write(buffers[n].data(), static_cast<std::streamsize>(buffers[n].size()));
+  }
 }
 
 /// From camera axes, at a depth, into the world, as POV-Ray has it: both axes are mirrored in z.
@@ -96,13 +104,14 @@ std::string matrix_of(const Camera& camera, double depth, double unit_m) {
 
 }  // namespace
 
-std::string ray_mesh(const Camera& camera, std::span<const OutgoingRay> rays, double unit_m) {
+void write_ray_mesh(const Camera& camera, std::span<const OutgoingRay> rays, double unit_m,
+                    std::ostream& to) {
   const Starts starts = starts_of(rays);
-  std::string text = "// The rays of a frame, written by lensplane: a triangle for each pixel.\n";
-  text += fmt::format("#declare lensplane_rays = mesh2 {{\nvertex_vectors {{ {},\n", 3 * rays.size());
-  append_pieces(
+  to << "// The rays of a frame, written by lensplane: a triangle for each pixel.\n";
+  to << fmt::format("#declare lensplane_rays = mesh2 {{\nvertex_vectors {{ {},\n", 3 * rays.size());
+  write_pieces(
       rays.size(),
-      [&](std::size_t i, fmt::memory_buffer& to) {
+      [&](std::size_t i, fmt::memory_buffer& text) {
         const OutgoingRay& ray = rays[i];
         Vec3 middle = start_of(ray, starts.depth) / unit_m, direction = ray.direction;
         if (ray.lightless) middle = Vec3(0), direction = Vec3(0, 0, -1);
@@ -112,20 +121,20 @@ std::string ray_mesh(const Camera& camera, std::span<const OutgoingRay> rays, do
         // Mirrored, corners run the other way round.
         const auto mirrored = [](const Vec3& v) { return Vec3(v.x, v.y, -v.z); };
         for (const Vec3& corner : triangle(mirrored(middle), mirrored(direction), size)) {
-          append(corner, to);
-          to.push_back(',');
+          append(corner, text);
+          text.push_back(',');
         }
-        to.push_back('\n');
+        text.push_back('\n');
       },
-      text);
-  text += fmt::format("}}\nface_indices {{ {},\n", rays.size());
-  append_pieces(
+      to);
+  to << fmt::format("}}\nface_indices {{ {},\n", rays.size());
+  write_pieces(
       rays.size(),
-      [](std::size_t i, fmt::memory_buffer& to) {
-        fmt::format_to(std::back_inserter(to), "<{},{},{}>,\n", 3 * i, 3 * i + 1, 3 * i + 2);
+      [](std::size_t i, fmt::memory_buffer& text) {
+        fmt::format_to(std::back_inserter(text), "<{},{},{}>,\n", 3 * i, 3 * i + 1, 3 * i + 2);
       },
-      text);
-  return text + "}\n" + matrix_of(camera, starts.depth, unit_m) + "\n}\n";
+      to);
+  to << "}\n" << matrix_of(camera, starts.depth, unit_m) << "\n}\n";
 }
 
 }  // namespace lensplane

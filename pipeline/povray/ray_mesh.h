@@ -10,8 +10,8 @@
 
 #pragma once
 
+#include <iosfwd>
 #include <span>
-#include <string>
 
 #include "src/outgoing_rays.h"
 
@@ -22,8 +22,8 @@ namespace lensplane {
 /// most start.
 inline constexpr double kMeshError = 5e-7;
 
-/// The text of lensplane_rays.inc, which declares the mesh `lensplane_rays`; pixels row by row. Pixels
+/// Writes the text of lensplane_rays.inc, which declares the mesh `lensplane_rays`; pixels row by row. Pixels
 /// without light get any ray: what they show means nothing. Lengths in the scene's unit.
-std::string ray_mesh(const Camera& camera, std::span<const OutgoingRay> rays, double unit_m);
+void write_ray_mesh(const Camera& camera, std::span<const OutgoingRay> rays, double unit_m, std::ostream& to);
 
 }  // namespace lensplane

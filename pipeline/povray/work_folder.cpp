@@ -31,8 +31,12 @@ WorkFolder::~WorkFolder() {
 }
 
 void WorkFolder::write(const std::string& name, const std::string& text) const {
+  write(name, [&](std::ostream& to) { to << text; });
+}
+
+void WorkFolder::write(const std::string& name, const std::function<void(std::ostream& to)>& make) const {
   std::ofstream file(path_ / name, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  make(file);
   file.close();
   if (!file) throw Failure(ExitCode::BadOutput, (path_ / name).string() + ": cannot be written");
 }

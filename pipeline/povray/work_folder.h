@@ -5,6 +5,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string>
 
 namespace lensplane {
@@ -22,6 +24,7 @@ class WorkFolder {
 
   /// Writes a file in it. Throws Failure (BadOutput).
   void write(const std::string& name, const std::string& text) const;
+  void write(const std::string& name, const std::function<void(std::ostream& to)>& make) const;
 
  private:
   std::filesystem::path path_;

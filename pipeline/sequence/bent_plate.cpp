@@ -64,7 +64,8 @@ PovRayPicture BentPlate::trace(const PlatePass& pass, std::span<const OutgoingRa
   facts.kind = PovRayCamera::Mesh;
   facts.curtain = curtain;
   folder_.write("lensplane.inc", camera_include(facts));
-  folder_.write("lensplane_rays.inc", ray_mesh(facts.camera, rays, facts.unit_m));
+  folder_.write("lensplane_rays.inc",
+                [&](std::ostream& to) { write_ray_mesh(facts.camera, rays, facts.unit_m, to); });
   PovRayJob job = job_;
   job.antialias = 1;  // its own would ask for the same rays again
   if (povray_.repeats_row) ++job.height;

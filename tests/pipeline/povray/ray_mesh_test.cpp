@@ -50,6 +50,12 @@ Mesh parsed(const std::string& text) {
   return mesh;
 }
 
+Mesh mesh_of(const Camera& camera, const std::vector<OutgoingRay>& rays, double unit_m) {
+  std::ostringstream text;
+  write_ray_mesh(camera, rays, unit_m, text);
+  return parsed(text.str());
+}
+
 /// POV-Ray's axes from the world's, and back.
 Vec3 mirrored(const Vec3& v) {
   return {v.x, v.y, -v.z};
@@ -57,7 +63,7 @@ Vec3 mirrored(const Vec3& v) {
 
 void expect_rays(const Camera& camera, const std::vector<OutgoingRay>& rays, double unit_m,
                  double widest_slope, double aside) {
-  const Mesh mesh = parsed(ray_mesh(camera, rays, unit_m));
+  const Mesh mesh = mesh_of(camera, rays, unit_m);
   ASSERT_EQ(mesh.corners.size(), 3 * rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Vec3 start = camera.axes.local_from_parent(mirrored(mesh.start(i)) * unit_m - camera.position);
@@ -107,7 +113,7 @@ TEST(RayMesh, RaysWithoutBendsStartAtTheCameraItself) {
   for (int i = 0; i < 50; ++i)
     rays.push_back({Vec3(0), Vec3(0.5 * std::sin(i * 1.7), 0.3 * std::cos(i * 0.9), -1).normalized(), false});
   rays.push_back({});  // without light: any triangle keeps its place
-  const Mesh mesh = parsed(ray_mesh(turned_camera(), rays, 2.0));
+  const Mesh mesh = mesh_of(turned_camera(), rays, 2.0);
   ASSERT_EQ(mesh.corners.size(), 3 * rays.size());
   for (std::size_t i = 0; i + 1 < rays.size(); ++i)
     EXPECT_LT((mirrored(mesh.start(i)) * 2.0 - turned_camera().position).length(), 1e-7);
