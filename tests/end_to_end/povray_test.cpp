@@ -318,16 +318,19 @@ TEST(PovRay, SaysWhatIsWrongWithAScene) {
 TEST(PovRay, SaysWhatIsWrongWithPovRay) {
   const TemporaryFolder folder;
   folder.write("set.pov", kSet);
-  const auto path = folder.write("pov.yaml", shot_of("fov: 50 deg", "antialias: 1, timeout: 0.5 s"));
+  const auto path = folder.write("pov.yaml", shot_of("fov: 50 deg", "antialias: 1"));
   expect_refusal(folder, render(path, {}, {"PATH=/nowhere"}), 2, "povray: no such program");
-  const auto with = [&](const std::string& script) { return render(path, {}, {path_with(folder, script)}); };
+  const auto with = [&](const std::string& script, const char* timeout = "10 min") {
+    return render(path, {"--set", std::string("layers.set.timeout=") + timeout}, {path_with(folder, script)});
+  };
   expect_refusal(folder, with("echo 'POV-Ray 3.6.1' >&2"), 2, "version 3.6.1; needed: POV-Ray 3.7 or later");
   expect_refusal(folder, with("echo hello >&2"), 2, "does not say its version");
   const std::string right =
       "[ \"$1\" = --version ] && { echo 'POV-Ray 3.7.0 x' >&2; exit 0; }\necho 'at work' >&2\n";
-  expect_refusal(folder, with(right + "sleep 100"), 2,
-                 "made no progress for 0.5 s and was ended; its last words: at work");
-  expect_refusal(folder, with(right + "while true; do echo 'Rendered 5 of 9 pixels' >&2; sleep 0.1; done"), 2,
+  expect_refusal(folder, with(right + "sleep 100", "2 s"), 2,
+                 "made no progress for 2 s and was ended; its last words: at work");
+  expect_refusal(folder,
+                 with(right + "while true; do echo 'Rendered 5 of 9 pixels' >&2; sleep 0.1; done", "2 s"), 2,
                  "made no progress");
   expect_refusal(folder, with(right + "kill -KILL $$"), 2, "was ended by signal 9; its last words: at work");
   expect_refusal(folder, with(right + "exit 1"), 2, "POV-Ray says: at work");
