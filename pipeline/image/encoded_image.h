@@ -5,9 +5,9 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "pipeline/image/pixel_windows.h"
+#include "src/unset_allocator.h"
 
 namespace lensplane {
 
@@ -18,13 +18,16 @@ constexpr std::size_t size_of(SampleType type) {
   return type == SampleType::UInt8 ? 1 : type == SampleType::Float ? 4 : 2;
 }
 
+/// Samples one after another, of whatever type.
+using Samples = UnsetVector<std::byte>;
+
 /// RGBA samples row by row from the top, in the file's own type and encoding. Grey files have R = G = B,
 /// files without alpha have it at full.
 struct EncodedImage : PixelWindows {
   SampleType type = SampleType::Float;
   bool has_alpha = false;
   bool premultiplied = true;  // whether colours are premultiplied by alpha; true without alpha
-  std::vector<std::byte> samples;
+  Samples samples;
 };
 
 }  // namespace lensplane

@@ -40,8 +40,7 @@ EncodedImage read_image(const std::filesystem::path& path, const ImageChoice& ch
     refuse(path, fmt::format("{} x {} pixels; allowed: up to {} million", spec.width, spec.height,
                              kMaxImagePixels >> 20));
   }
-  std::vector<std::byte> file(spec.image_pixels() * static_cast<std::size_t>(layout.channels) *
-                              size_of(layout.type));
+  Samples file(spec.image_pixels() * static_cast<std::size_t>(layout.channels) * size_of(layout.type));
   const int end = layout.first + layout.channels;
   if (!input->read_image(part, 0, layout.first, end, oiio_type(layout.type), file.data()))
     refuse(path, input->geterror());

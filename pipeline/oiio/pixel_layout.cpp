@@ -4,6 +4,8 @@
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -76,19 +78,23 @@ std::string name_of(const OIIO::ImageSpec& part) {
 
 /// Channels as the file has them to RGBA; `Sample` is as large as a sample, `opaque` is full alpha.
 template <class Sample>
-std::vector<std::byte> rgba(const PixelLayout& layout, const std::vector<std::byte>& file, Sample opaque) {
+Samples rgba(const PixelLayout& layout, const Samples& file, Sample opaque) {
   const std::size_t pixels = file.size() / (static_cast<std::size_t>(layout.channels) * sizeof(Sample));
-  std::vector<std::byte> samples(pixels * 4 * sizeof(Sample));
-  const auto* in = reinterpret_cast<const Sample*>(file.data());
-  auto* out = reinterpret_cast<Sample*>(samples.data());
-  for (std::size_t i = 0; i < pixels; ++i, in += layout.channels, out += 4) {
-    for (std::size_t c = 0; c < 3; ++c) out[c] = in[layout.colours[c]];
-    out[3] = layout.alpha >= 0 ? in[layout.alpha] : opaque;
-  }
+  Samples samples(pixels * 4 * sizeof(Sample));
+  constexpr std::size_t kGrain = 1 << 14;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, kGrain), [&](const auto& range) {
+    const auto first = static_cast<std::ptrdiff_t>(range.begin());
+    const auto* in = reinterpret_cast<const Sample*>(file.data()) + first * layout.channels;
+    auto* out = reinterpret_cast<Sample*>(samples.data()) + first * 4;
+    for (std::size_t i = range.begin(); i != range.end(); ++i, in += layout.channels, out += 4) {
+      for (std::size_t c = 0; c < 3; ++c) out[c] = in[layout.colours[c]];
+      out[3] = layout.alpha >= 0 ? in[layout.alpha] : opaque;
+    }
+  });
   return samples;
 }
 
-std::vector<std::byte> rgba(const PixelLayout& layout, const std::vector<std::byte>& file) {
+Samples rgba(const PixelLayout& layout, const Samples& file) {
   switch (layout.type) {
     case SampleType::UInt8:
       return rgba<std::uint8_t>(layout, file, 0xff);
@@ -153,8 +159,7 @@ int part_of(const std::filesystem::path& path, OIIO::ImageInput& input, const Im
   refuse(path, fmt::format("it has no part \"{}\"; its parts: {}", choice.part, fmt::join(names, ", ")));
 }
 
-EncodedImage packed(const PixelLayout& layout, const PixelWindows& windows,
-                    const std::vector<std::byte>& file) {
+EncodedImage packed(const PixelLayout& layout, const PixelWindows& windows, const Samples& file) {
   return {windows, layout.type, layout.alpha >= 0, layout.premultiplied, rgba(layout, file)};
 }
 

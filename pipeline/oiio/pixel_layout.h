@@ -45,8 +45,7 @@ int part_of(const std::filesystem::path& path, OIIO::ImageInput& input, const Im
 OIIO::TypeDesc oiio_type(SampleType type);
 
 /// The image of samples as the file has them.
-EncodedImage packed(const PixelLayout& layout, const PixelWindows& windows,
-                    const std::vector<std::byte>& file);
+EncodedImage packed(const PixelLayout& layout, const PixelWindows& windows, const Samples& file);
 
 /// Where the file's pixels lie.
 PixelWindows windows_of(const OIIO::ImageSpec& spec);

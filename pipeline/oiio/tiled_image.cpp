@@ -87,8 +87,8 @@ EncodedImage CachedImage::tile(int level, int column, int row) const {
   const int left = column * tile_width_, right = std::min(left + tile_width_, size.width);
   const int top = row * tile_height_, bottom = std::min(top + tile_height_, size.height);
   const int width = right - left, height = bottom - top;
-  std::vector<std::byte> file(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                              static_cast<std::size_t>(layout_.channels) * size_of(layout_.type));
+  Samples file(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+               static_cast<std::size_t>(layout_.channels) * size_of(layout_.type));
   const OIIO::ustring name(path_);
   if (!cache_->get_pixels(name, part_, level, left, right, top, bottom, 0, 1, layout_.first,
                           layout_.first + layout_.channels, oiio_type(layout_.type), file.data())) {

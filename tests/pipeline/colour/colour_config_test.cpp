@@ -25,7 +25,7 @@ ColourConfig builtin() {
 
 template <class Sample>
 EncodedImage pixel(SampleType type, const std::array<Sample, 4>& rgba, bool has_alpha, bool premultiplied) {
-  EncodedImage image{1, 1, 0, 0, 1, 1, type, has_alpha, premultiplied, std::vector<std::byte>(sizeof rgba)};
+  EncodedImage image{1, 1, 0, 0, 1, 1, type, has_alpha, premultiplied, Samples(sizeof rgba)};
   std::memcpy(image.samples.data(), rgba.data(), sizeof rgba);
   return image;
 }
@@ -122,7 +122,7 @@ TEST(ColourConfig, WhatIsNoNumberOrTooBrightStaysFinite) {
 TEST(ColourConfig, PixelsThatAreNoNumbersBecomeBlackAndAreCounted) {
   const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   const std::array<float, 16> samples = {1, 2, 3, 1, nan, 1, 1, 1, 1, inf, 1, 0.5F, 4, 5, 6, 1};
-  EncodedImage image{4, 1, 0, 0, 4, 1, SampleType::Float, true, true, std::vector<std::byte>(sizeof samples)};
+  EncodedImage image{4, 1, 0, 0, 4, 1, SampleType::Float, true, true, Samples(sizeof samples)};
   std::memcpy(image.samples.data(), samples.data(), sizeof samples);
   const Picture got = builtin().to_working(image, {"ACEScg", std::nullopt, false}, "ACEScg");
   EXPECT_EQ(got.not_numbers, 2);

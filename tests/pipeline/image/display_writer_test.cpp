@@ -39,6 +39,23 @@ TEST(DisplayWriter, DithersWithoutShiftingTheMean) {
   EXPECT_NEAR(sum / (128 * 128), 100.3, 0.02);
 }
 
+TEST(DisplayWriter, DithersAsOpenImageIODoes) {
+  const TemporaryFolder folder;
+  Picture picture{90, 70, 0, 0, 90, 70, {}};  // more rows than one thread takes
+  for (int i = 0; i < 90 * 70; ++i) {
+    const auto v = static_cast<float>(i) / 6000.0F - 0.02F;
+    picture.pixels.push_back({v, 1 - v, 0.1F * v, 1});
+  }
+  write_display(folder / "ours.png", picture, 8, {"p"});
+  OIIO::ImageSpec spec(90, 70, 3, OIIO::TypeDesc::UINT8);
+  spec["oiio:dither"] = 1;
+  const auto output = OIIO::ImageOutput::create("theirs.png");
+  ASSERT_TRUE(output->open(folder / "theirs.png", spec));
+  output->write_image(OIIO::TypeDesc::FLOAT, picture.pixels.data(), sizeof(Rgba));
+  output->close();
+  EXPECT_EQ(read_image(folder / "ours.png").samples, read_image(folder / "theirs.png").samples);
+}
+
 TEST(DisplayWriter, SixteenBitsAreRoundedAndClamped) {
   const TemporaryFolder folder;
   const Picture picture{
