@@ -19,6 +19,7 @@
 #include "pipeline/cli/plan.h"
 #include "pipeline/cli/probe.h"
 #include "pipeline/cli/render.h"
+#include "pipeline/cli/study.h"
 #include "pipeline/cli/warp.h"
 #include "pipeline/image/failure.h"
 
@@ -28,10 +29,14 @@ namespace {
 std::atomic<bool> interrupt_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "or a signal handler must not touch it");
 
-/// The first signal lets the frames in the making finish; the second ends the program at once.
+/// The first signal lets what is in the making finish; the second ends the program at once.
 extern "C" void request_interrupt(int signal) {
   interrupt_requested = true;
   std::signal(signal, SIG_DFL);
+}
+
+void take_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, request_interrupt);
 }
 
 void run(const lensplane::Options& options) {
@@ -46,12 +51,13 @@ void run(const lensplane::Options& options) {
       return lensplane::run_export(options);
     case lensplane::Command::Warp:
       return lensplane::run_warp(options);
+    case lensplane::Command::Study:
+      take_interrupts();
+      return lensplane::run_study_command(options, [] { return interrupt_requested.load(); });
     case lensplane::Command::Render:
     case lensplane::Command::Map:
     case lensplane::Command::Comp:
-      std::signal(SIGINT, request_interrupt);
-      std::signal(SIGTERM, request_interrupt);
-      std::signal(SIGHUP, request_interrupt);
+      take_interrupts();
       return lensplane::run_render(options, [] { return interrupt_requested.load(); });
   }
 }

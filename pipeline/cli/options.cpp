@@ -27,6 +27,7 @@ Examples:
   lensplane render shot.yaml -f 1001-1010 --proxy 4       ten frames at a quarter of the resolution
   lensplane map shot.yaml --output /tmp/maps              only the STMaps, for another compositor
   lensplane comp shot.yaml                                the picture once more from edited maps
+  lensplane study scenes/seed-fig6.yaml -f 1001           what accuracy costs in time, method by method
   lensplane export shot.yaml --to chan                    the camera, as a file for other programs
   lensplane export shot.yaml --to nuke                    a script that makes the picture from the maps
   lensplane warp shot.bg.map.1001.exr plate.exr out.exr   any STMap, applied to any image
@@ -105,9 +106,11 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App* warp = app.add_subcommand("warp", "apply any STMap to any image");
   CLI::App* probe = app.add_subcommand("probe", "one film position in full");
   CLI::App* exporting = app.add_subcommand("export", "the shot's camera, or its maps, for other programs");
-  const std::pair<CLI::App*, Command> commands[] = {
-      {check, Command::Check}, {plan, Command::Plan},   {render, Command::Render},   {map, Command::Map},
-      {comp, Command::Comp},   {probe, Command::Probe}, {exporting, Command::Export}};
+  CLI::App* study = app.add_subcommand("study", "what accuracy costs in time: tables, plot, page");
+  const std::pair<CLI::App*, Command> commands[] = {{check, Command::Check},      {plan, Command::Plan},
+                                                    {render, Command::Render},    {map, Command::Map},
+                                                    {comp, Command::Comp},        {probe, Command::Probe},
+                                                    {exporting, Command::Export}, {study, Command::Study}};
   for (const auto& [app_of, command] : commands) {
     add_common(*app_of, options);
     app_of->footer(kExamples);
@@ -120,6 +123,11 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
       ->required()
       ->check(CLI::IsMember({"chan", "nuke", "blender", "oiio"}));
   exporting->add_option("--output", options.output, "the folder for what is written (else that of the maps)")
+      ->check(refuse_empty);
+  add_threads(*study, options);
+  study
+      ->add_option("--output", options.output,
+                   "the folder in which the study's own is made (else that of the shot's output)")
       ->check(refuse_empty);
   for (CLI::App* command : {plan, probe}) command->add_flag("--json", options.json, "for programs: as JSON");
   warp->callback([&options] { options.command = Command::Warp; });

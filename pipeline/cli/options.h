@@ -12,7 +12,7 @@
 
 namespace lensplane {
 
-enum class Command { Check, Plan, Render, Map, Comp, Warp, Probe, Export };
+enum class Command { Check, Plan, Render, Map, Comp, Warp, Probe, Export, Study };
 
 /// Of lensplane warp.
 struct WarpOptions {

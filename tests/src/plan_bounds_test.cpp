@@ -11,6 +11,7 @@
 #include <cmath>
 #include <random>
 
+#include "src/accuracy.h"
 #include "src/constants.h"
 #include "src/tracer.h"
 
@@ -91,41 +92,6 @@ class RandomScenes {
   std::mt19937 random_;
 };
 
-/// Where a ray meets a ball, and its direction there. The camera of all scenes stands at the origin.
-struct Meeting {
-  Vec3 point, direction;
-};
-Meeting meeting(const Sphere& sphere, const SurfaceBatch& surface, int i) {
-  const PassBatch& passes = *surface.passes;
-  return {sphere.centre + sphere_normal_from_st({surface.s[i], surface.t[i]}) * sphere.radius,
-          {passes.dir_x[i], passes.dir_y[i], passes.dir_z[i]}};
-}
-
-/// How far apart two results are, in pixels; nothing where either is not valid. On a ball it is how far aside
-/// one ray is from where the other meets it, seen from the camera.
-std::optional<double> pixels_between(const Scene& scene, std::size_t k, const SurfaceBatch& a,
-                                     const SurfaceBatch& b, int i) {
-  const auto hit = [i](const SurfaceBatch& s) {
-    return s.outcome[static_cast<std::size_t>(i)] == Outcome::Hit;
-  };
-  if (!hit(a) || !hit(b)) return std::nullopt;
-  if (std::holds_alternative<Plate>(scene.surfaces[k]) || std::holds_alternative<Card>(scene.surfaces[k])) {
-    return std::hypot((a.s[i] - b.s[i]) * scene.camera.width, (a.t[i] - b.t[i]) * scene.camera.height);
-  }
-  if (const auto* sphere = std::get_if<Sphere>(&scene.surfaces[k])) {
-    const Meeting one = meeting(*sphere, a, i), other = meeting(*sphere, b, i);
-    const double aside = (one.point - other.point).cross(other.direction).length();
-    return aside / one.point.length() / pixel_angle(scene.camera);
-  }
-  if (const auto* ring = std::get_if<Ring>(&scene.surfaces[k])) {
-    const Vec3 p = ring_point_from_st(*ring, {a.s[i], a.t[i]}),
-               q = ring_point_from_st(*ring, {b.s[i], b.t[i]});
-    return p.cross(q).length() / (p.length() * q.length()) / pixel_angle(scene.camera);
-  }
-  const Vec3 apart = sky_direction_from_st({a.s[i], a.t[i]}) - sky_direction_from_st({b.s[i], b.t[i]});
-  return apart.length() / pixel_angle(scene.camera);
-}
-
 /// How often each simplification was used, and how near errors come to what may be left out.
 struct Tally {
   int by_level[4] = {}, culled = 0, without_finite = 0, on_balls = 0;
@@ -164,12 +130,15 @@ void hold_to_its_word(const Scene& scene, double tolerance_px, RandomScenes& ran
       const auto ray = static_cast<std::size_t>(i);
       ASSERT_EQ(a.surfaces[k].outcome[ray] == Outcome::Captured,
                 b.surfaces[k].outcome[ray] == Outcome::Captured);
-      const auto error = pixels_between(scene, k, a.surfaces[k], b.surfaces[k], i);
-      if (!error) continue;
-      ASSERT_LE(*error, plan.bound_px + kRoundingPx)
-          << "surface " << k << " film " << a.x[i] << " " << a.y[i];
+      const auto hit = [&](const TraceBatch& batch) {
+        return batch.surfaces[k].outcome[ray] == Outcome::Hit;
+      };
+      if (!hit(a) || !hit(b)) continue;
+      const double error =
+          pixels_apart(scene.camera, planned.surfaces()[k], a.surfaces[k], b.surfaces[k], ray);
+      ASSERT_LE(error, plan.bound_px + kRoundingPx) << "surface " << k << " film " << a.x[i] << " " << a.y[i];
       double& nearest = ball ? tally.nearest_on_balls : tally.nearest;
-      nearest = std::max(nearest, *error / tolerance_px);
+      nearest = std::max(nearest, error / tolerance_px);
       tally.on_balls += ball;
     }
   }

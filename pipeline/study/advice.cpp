@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/study/advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lensplane {
+namespace {
+
+/// Marks the rows of least `error(row)` among those that take no longer.
+template <class Row, class Seconds, class Error>
+void mark(std::vector<Row>& rows, Seconds seconds, Error error) {
+  for (Row& row : rows) {
+    row.pareto = std::none_of(rows.begin(), rows.end(), [&](const Row& other) {
+      const bool no_worse = seconds(other) <= seconds(row) && error(other) <= error(row);
+      return no_worse && (seconds(other) < seconds(row) || error(other) < error(row));
+    });
+  }
+}
+
+const TraceRow* fastest_within(const Study& study, double px) {
+  const TraceRow* best = nullptr;
+  for (const TraceRow& row : study.traces) {
+    if (row.error.compared == 0 || row.error.p99_px > px) continue;
+    if (!best || row.seconds() < best->seconds()) best = &row;
+  }
+  return best;
+}
+
+std::string of_the_paper(const Study& study) {
+  const auto row = std::find_if(study.traces.begin(), study.traces.end(), [](const TraceRow& r) {
+    return r.rung.settings.method == Method::ShinotsukaMakino;
+  });
+  if (row == study.traces.end() || row->error.compared == 0) return "";
+  std::string text = fmt::format("; the paper's method is {} off", readable_pixels(row->error.p99_px));
+  if (row->error.most_px > 0)
+    text += fmt::format(", and {} at {}", readable_pixels(row->error.most_px), row->worst_at);
+  return text;
+}
+
+}  // namespace
+
+void mark_pareto(Study& study) {
+  mark(
+      study.traces, [](const TraceRow& row) { return row.seconds(); },
+      [](const TraceRow& row) { return row.error.compared > 0 ? row.error.p99_px : INFINITY; });
+  mark(
+      study.pictures, [](const PictureRow& row) { return row.timing.median_s; },
+      [](const PictureRow& row) { return -row.psnr_db; });
+}
+
+std::string advice_of(const Study& study) {
+  if (study.traces.empty()) return "nothing was traced";
+  const bool any = std::any_of(study.traces.begin(), study.traces.end(),
+                               [](const TraceRow& row) { return row.error.compared > 0; });
+  if (!any) return "no pixel of the frame sees anything that could be compared";
+  const TraceRow* best = fastest_within(study, kSeenErrorPx);
+  const std::string target = fmt::format("for {} px in 99 of 100 pixels", kSeenErrorPx);
+  if (!best) {
+    const auto nearest = std::min_element(
+        study.traces.begin(), study.traces.end(),
+        [](const TraceRow& a, const TraceRow& b) { return a.error.p99_px < b.error.p99_px; });
+    return fmt::format("{} no row does; the nearest is {}: {} off", target, name_of(nearest->rung.settings),
+                       readable_pixels(nearest->error.p99_px));
+  }
+  return fmt::format("{} use {}: {}{}", target, name_of(best->rung.settings),
+                     readable_seconds(best->seconds()), of_the_paper(study));
+}
+
+std::string readable_seconds(double seconds) {
+  if (std::abs(seconds) < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
+  return fmt::format("{:.3g} s", seconds);
+}
+
+std::string readable_pixels(double px) {
+  return std::isfinite(px) ? fmt::format("{:.2g} px", px) : "no limit";
+}
+
+std::string readable_price(const Price& price) {
+  if (price.seconds == 0) return "-";
+  if (std::abs(price.seconds) < kNoise * price.base_s) return "too little to tell";
+  return (price.on ? "" : "would add ") + readable_seconds(price.seconds);
+}
+
+std::string readable_memory(const std::optional<std::size_t>& bytes) {
+  return bytes ? fmt::format("{:.0f} MB", static_cast<double>(*bytes) / 1e6) : "-";
+}
+
+std::string readable_share(double share) {
+  return share > 0 && share < 1e-3 ? "< 0.1 %" : fmt::format("{:.1f} %", 100 * share);
+}
+
+}  // namespace lensplane
