@@ -8,7 +8,7 @@ packages=(
   libopenimageio-dev libopenexr-dev libimath-dev libopencolorio-dev
   libboost-dev libyaml-cpp-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
-  openimageio-tools jq clang-format
+  openimageio-tools jq clang-format chromium-headless-shell
   povray povray-includes
 )
 

@@ -9,6 +9,7 @@
 
 #include "pipeline/cli/study_text.h"
 #include "pipeline/cli/threads.h"
+#include "pipeline/image/atomic_file.h"
 #include "pipeline/image/failure.h"
 #include "pipeline/sequence/progress.h"
 #include "pipeline/sequence/shot_colours.h"
@@ -29,6 +30,9 @@ int frame_of(const Options& options, const Shot& shot) {
 void run_study_command(const Options& options, const std::function<bool()>& interrupted) {
   const Shot shot = shot_of(options);
   const int frame = frame_of(options, shot);
+  const std::filesystem::path folder = study_folder(shot, frame);
+  // Whether it can be written shows before minutes of work, not after them.
+  { const AtomicFile writable(folder / "study.csv"); }
   const Threads threads(options.threads);
   const ColourConfig colours = load_colours(shot, std::getenv("OCIO"));
   Study study;
@@ -37,7 +41,6 @@ void run_study_command(const Options& options, const std::function<bool()>& inte
     study = run_study(shot, colours, frame, threads.count(), {},
                       {[&](const std::string& doing) { progress.show(doing); }, interrupted});
   }
-  const std::filesystem::path folder = study_folder(shot, frame);
   write_study(folder, study);
   if (!options.quiet)
     std::fputs((text_from_study(study) + (folder / "study.html").string() + "\n").c_str(), stdout);

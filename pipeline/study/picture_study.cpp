@@ -43,9 +43,9 @@ std::vector<PictureRow> rows_of(const Shot& shot, int frame) {
   return rows;
 }
 
-Tracer tracer_of(const Scene& scene, TraceSettings settings, bool jacobian) {
+Tracer tracer_of(const Scene& scene, TraceSettings settings) {
   settings.effects = {};
-  settings.effects.jacobian = jacobian;
+  settings.effects.jacobian = true;
   return {scene, plan_trace(scene, settings)};
 }
 
@@ -60,8 +60,7 @@ void study_pictures(const Shot& shot, ShotAssets& assets, int frame, const Study
   hooks.doing("pictures: the truth, by many rays");
   TraceSettings finest = rows.front().trace;
   if (finest.method == Method::Planes) finest.law = Law::Exact, finest.finite_distance = Choice::On;
-  const auto truth =
-      true_tiles(tracer_of(scene, finest, false), looks, effort.truth_tiles, effort.truth_rays);
+  const auto truth = true_tiles(tracer_of(scene, finest), looks, effort.truth_tiles, effort.truth_rays);
   study.truth_rays = effort.truth_rays * effort.truth_rays;
   for (const TrueTile& tile : truth) study.truth_pixels += tile.size * tile.size;
   const double pixels = static_cast<double>(scene.camera.full_width()) * scene.camera.full_height();
@@ -69,7 +68,7 @@ void study_pictures(const Shot& shot, ShotAssets& assets, int frame, const Study
     if ((study.interrupted = hooks.stop())) return;
     hooks.doing(fmt::format("picture {} of {}: up to {} rays", study.pictures.size() + 1, rows.size(),
                             row.sampling.max));
-    const Tracer tracer = tracer_of(scene, row.trace, true);
+    const Tracer tracer = tracer_of(scene, row.trace);
     const PeakMemory memory;
     Composite result;
     row.timing = time_repeatedly(effort.repeats, [&] { result = composite(tracer, looks, row.sampling); });

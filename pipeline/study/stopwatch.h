@@ -29,6 +29,7 @@ struct Repeats {
   double budget_s = 0.3;
   int least = 3;
   int most = 25;
+  double longest_s = 0.5;  // of a single run: longer work is done in part, where that stands for the whole
 };
 
 template <class Work>

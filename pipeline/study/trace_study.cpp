@@ -20,7 +20,6 @@ constexpr double kReferenceRad = 1e-14;  // ...unless rounding is more
 constexpr double kLooser = 100;          // the tolerance that tells how good it is
 constexpr int kFewMasses = 4;            // up to here curved rays cost about the same
 constexpr int kFewestRays = 256;
-constexpr double kLongTrace_s = 0.5;  // longer ones are timed in part
 
 /// The surfaces that a study compares say where light comes from; their effects only what that takes.
 TraceSettings to_compare(TraceSettings settings) {
@@ -141,7 +140,7 @@ TraceRow climb(const Rung& rung, const Yardstick& yardstick, const StudyEffort& 
   TraceRow row;
   row.rung = rung;
   Plan plan;
-  row.plan_s = time_repeatedly({0.0, 3, 3}, [&] { plan = plan_trace(scene, rung.settings); }).median_s;
+  row.plan_s = time_repeatedly({0.0, 3, 3, 0.0}, [&] { plan = plan_trace(scene, rung.settings); }).median_s;
   {
     const PeakMemory memory;
     const Tracer tracer(scene, std::move(plan));
@@ -193,7 +192,8 @@ Timing time_trace(const Tracer& tracer, const Repeats& repeats) {
   std::vector<LensMap> maps;
   double first = 0;  // of one row of tiles in the middle, which also warms up
   timed(first, [&] { return trace_rows(tracer, tile_rows / 2, tile_rows, maps); });
-  const int every = std::clamp(static_cast<int>(std::ceil(first * tile_rows / kLongTrace_s)), 1, tile_rows);
+  const int every =
+      std::clamp(static_cast<int>(std::ceil(first * tile_rows / repeats.longest_s)), 1, tile_rows);
   int rows = height;
   const Timing timing =
       time_repeatedly(repeats, [&] { rows = trace_rows(tracer, (every - 1) / 2, every, maps); });

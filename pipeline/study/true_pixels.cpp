@@ -11,6 +11,8 @@ namespace lensplane {
 namespace {
 
 constexpr int kTile = 16;
+constexpr double kPoint =
+    1e-3;                  // a ray's filter in pixel filters: a point, but of the surface that the pixel sees
 constexpr int kReach = 2;  // pixels beyond a pixel's centre: 4.4 standard deviations of the filter
 
 /// The weights of rays along a line, from kReach pixels before a pixel's centre to as many behind it.
@@ -50,12 +52,8 @@ class LineOfSight {
 
  private:
   Rgba seen_by(std::size_t i) {
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      const SurfaceBatch& surface = batch_.surfaces[k];
-      points_[k] = {
-          surface.outcome[i] == Outcome::Hit, surface.distance[i], {surface.s[i], surface.t[i]}, {}};
-    }
-    return viewer_.see(points_, 0.0);  // a point
+    for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
+    return viewer_.see(points_, kPoint);
   }
 
   const Tracer& tracer_;

@@ -22,7 +22,8 @@ struct TrueTile {
 
 /// `across` x `across` squares of 16 pixels each way, fewer where they would overlap, evenly spread over the
 /// frame without its overscan; every pixel by `rays` x `rays` rays within it, and those of its neighbours
-/// that the filter reaches. `looks` in the order of the surfaces. Runs in parallel.
+/// that the filter reaches. The tracer's plan has to call for the Jacobian, which says how smooth a texture
+/// is between its texels. `looks` in the order of the surfaces. Runs in parallel.
 std::vector<TrueTile> true_tiles(const Tracer& tracer, const std::vector<SurfaceLook>& looks, int across,
                                  int rays);
 

@@ -84,7 +84,7 @@ TEST(StudyOutput, AdviceIsTheFastestThatIsRightEnough) {
   EXPECT_EQ(advice_of(study),
             "for 0.1 px in 99 of 100 pixels no row does; the nearest is shinotsuka-makino: 0.4 px off");
   study.traces[0].error = {};
-  EXPECT_THAT(advice_of(study), HasSubstr("nothing"));
+  EXPECT_EQ(advice_of(study), "no pixel of the frame sees anything that could be compared");
   study.traces.clear();
   EXPECT_EQ(advice_of(study), "nothing was traced");
 }
@@ -93,9 +93,12 @@ TEST(StudyOutput, ViolatedBoundsAreRefusedByName) {
   Study study = small_study();
   EXPECT_NO_THROW(require_bounds(study));
   study.traces[2].violated = true;
-  expect_failure(
-      [&] { require_bounds(study); }, ExitCode::BadShot,
-      "planes, law auto, 0.5 px, finite distance auto leaves out 0.1 px where it says at most 0.5 px");
+  const Refusal refusal = refusal_of([&] { require_bounds(study); });
+  EXPECT_EQ(refusal.code, ExitCode::BadShot);
+  EXPECT_THAT(
+      refusal.line,
+      HasSubstr(
+          "planes, law auto, 0.5 px, finite distance auto leaves out 0.1 px where it says at most 0.5 px"));
   EXPECT_THAT(page_from_study(study), HasSubstr("violated\""));
   EXPECT_THAT(csv_from_study(study), HasSubstr("finite distance auto\",0,0"));
 }
@@ -110,10 +113,10 @@ TEST(StudyOutput, ReadsAsPeopleDo) {
   EXPECT_EQ(readable_share(0.0786), "7.9 %");
   EXPECT_EQ(readable_memory(std::nullopt), "-");
   EXPECT_EQ(readable_memory(3000000), "3 MB");
-  EXPECT_EQ(readable_price({"a", true, 0.5, 1}), "500 ms");
-  EXPECT_EQ(readable_price({"a", false, 0.5, 1}), "would add 500 ms");
-  EXPECT_EQ(readable_price({"a", true, -0.01, 1}), "too little to tell");
-  EXPECT_EQ(readable_price({"a", false, 0, 1}), "-");
+  EXPECT_EQ(readable_price({"a", true, 0.5, 1, 0, ""}), "500 ms");
+  EXPECT_EQ(readable_price({"a", false, 0.5, 1, 0, ""}), "would add 500 ms");
+  EXPECT_EQ(readable_price({"a", true, -0.01, 1, 0, ""}), "too little to tell");
+  EXPECT_EQ(readable_price({"a", false, 0, 1, 0, ""}), "-");
 }
 
 TEST(StudyOutput, CsvHasALineForEachRowOfEqualLength) {

@@ -83,7 +83,7 @@ TEST(TraceStudy, ABoundIsViolatedByMoreAndByOtherCapturedLight) {
 
 TEST(TraceStudy, TheReferenceOfASingleMassIsSchwarzschilds) {
   // Its photon sphere fills a good part of the frame.
-  const Study study = traces_of(shot_from(one_mass(2e4)), 1001, 6000);
+  const Study study = traces_of(shot_from(one_mass(3000)), 1001, 6144);
   ASSERT_TRUE(study.reference.closed_form);
   EXPECT_GT(study.reference.closed_form->compared, 4000U);
   EXPECT_EQ(study.reference.closed_form->share_validity_differs, 0);
@@ -160,16 +160,16 @@ TEST(TraceStudy, StopsBetweenRowsWithWhatIsDone) {
 
 TEST(TraceStudy, LongTracesAreTimedInPart) {
   std::string text = one_mass(1);
-  text.replace(text.find("[96, 64]"), 8, "[1000, 700]");
-  text += "trace: {method: geodesic}\n";
+  text.replace(text.find("[96, 64]"), 8, "[640, 1000]");
   const Shot shot = shot_from(text);
   const Scene scene = study_scene(shot, 1001);
-  const Timing timing = time_trace(Tracer(scene, plan_trace(scene, trace_at(shot, 1001))), {0, 1, 1});
-  EXPECT_TRUE(timing.of_a_part);
-  EXPECT_GT(timing.median_s, 0.5);
-  const Timing fast = time_trace(Tracer(scene, plan_trace(scene, TraceSettings())), {0, 2, 2});
-  EXPECT_FALSE(fast.of_a_part);
-  EXPECT_LT(fast.median_s, timing.median_s);
+  const Tracer tracer(scene, plan_trace(scene, TraceSettings()));
+  const Timing whole = time_trace(tracer, {0, 5, 5, 1e9}), part = time_trace(tracer, {0, 5, 5, 1e-9});
+  EXPECT_FALSE(whole.of_a_part);
+  EXPECT_TRUE(part.of_a_part);
+  // It stands for the whole, as far as a busy machine tells.
+  EXPECT_GT(part.least_s, 0.1 * whole.least_s);
+  EXPECT_LT(part.least_s, 10 * whole.least_s);
 }
 
 }  // namespace

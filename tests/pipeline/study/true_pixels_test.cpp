@@ -13,6 +13,12 @@ namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
 
+Tracer tracer_of(const Scene& scene) {
+  TraceSettings settings;
+  settings.effects.jacobian = true;
+  return {scene, plan_trace(scene, settings)};
+}
+
 Scene plain_scene() {
   Scene scene;
   scene.camera.width = kWidth;
@@ -35,7 +41,7 @@ SurfaceLook plate_with_edge(double edge, int per_pixel) {
 TEST(TruePixels, AreTheSurfaceUnderThePixelFilter) {
   const Scene scene = plain_scene();
   const double edge = 24.25;
-  const Tracer tracer(scene, plan_trace(scene, TraceSettings{}));
+  const Tracer tracer = tracer_of(scene);
   const auto tiles = true_tiles(tracer, {plate_with_edge(edge, 16)}, 4, 32);
   ASSERT_EQ(tiles.size(), 12U);  // no more than lie side by side
   for (const TrueTile& tile : tiles) {
@@ -53,7 +59,7 @@ TEST(TruePixels, MorePixelsThanFitAreNotAskedFor) {
   Scene scene = plain_scene();
   scene.camera.width = 7;
   scene.camera.height = 5;
-  const Tracer tracer(scene, plan_trace(scene, TraceSettings{}));
+  const Tracer tracer = tracer_of(scene);
   const auto tiles = true_tiles(tracer, {plate_with_edge(3, 1)}, 8, 2);
   ASSERT_EQ(tiles.size(), 1U);
   EXPECT_EQ(tiles[0].size, 5);
@@ -75,9 +81,7 @@ TEST(TruePixels, PsnrIsThatOfTheTilesPixels) {
 
 TEST(TruePixels, ThePictureItselfComesNear) {
   const Scene scene = plain_scene();
-  TraceSettings settings;
-  settings.effects.jacobian = true;
-  const Tracer tracer(scene, plan_trace(scene, settings));
+  const Tracer tracer = tracer_of(scene);
   const std::vector<SurfaceLook> looks = {plate_with_edge(24.25, 4)};
   const auto truth = true_tiles(tracer, looks, 4, 16);
   EXPECT_GT(psnr_of(composite(tracer, looks, {}).picture, truth), 45);
