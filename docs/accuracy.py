@@ -14,11 +14,12 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SCENES = ["seed-fig5", "seed-fig6", "black-hole", "wide-group"]
-MAPPED = {  # the rows whose error maps are shown, and what their files are called
-    "shinotsuka-makino": "paper",
-    "planes, law weak, finite distance on": "weak",
-    "planes, law auto, 0.1 px, finite distance on": "auto",
+# The scenes, and of each the rows whose error maps are shown, with what their files are called.
+SCENES = {
+    "seed-fig5": {"shinotsuka-makino": "paper", "planes, law auto, 0.1 px, finite distance on": "auto"},
+    "seed-fig6": {},
+    "black-hole": {"planes, law exact, finite distance on": "exact", "geodesic, 0.01 px": "geodesic"},
+    "wide-group": {"planes, law weak, finite distance on": "weak", "planes, law auto, 0.1 px, finite distance on": "auto"},
 }
 
 
@@ -37,11 +38,11 @@ def traces(study):
         error, bound = row["error"], row.get("bound_px", "-")
         rows.append([
             ("**" if row["pareto"] else "") + row["name"] + ("**" if row["pareto"] else ""),
-            seconds(row["seconds"]), f"{error['median_px']:.2g}", f"{error['p99_px']:.2g}", f"{error['most_px']:.2g}",
-            f"{100 * error['share_above_0.1_px']:.1f} %",
+            seconds(row["seconds"]), *(f"{error[key]:.2g}" for key in ("median_px", "p99_px", "most_px")),
+            f"{100 * error['share_above_0.1_px']:.1f} %", f"{100 * error['share_validity_differs']:.1f} %",
             "no limit" if bound is None else bound if bound == "-" else f"{bound:.2g}",
             f"{row['left_out_px']:.2g}" if "left_out_px" in row else "-"])
-    return table(rows, ["trace", "a frame", "median, px", "99 %, px", "most, px", "> 0.1 px", "bound, px", "left out, px"])
+    return table(rows, ["trace", "a frame", "median, px", "99 %, px", "most, px", "> 0.1 px", "validity", "bound, px", "left out, px"])
 
 
 def pictures(study):
@@ -55,15 +56,15 @@ def main():
     program = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/release/bin/lensplane")
     images = ROOT / "docs/images"
     with tempfile.TemporaryDirectory() as folder:
-        for scene in SCENES:
+        for scene, mapped in SCENES.items():
             subprocess.run([program, "study", str(ROOT / "scenes" / (scene + ".yaml")), "-f", "1001", "--output", folder,
                             "--quiet"], check=True)
             written = pathlib.Path(folder) / (scene + ".study.1001")
             html = (written / "study.html").read_text()
             (images / f"accuracy-{scene}.svg").write_text(re.search(r'<svg id="plot".*?</svg>', html, re.S).group(0) + "\n")
             for name, data in re.findall(r'alt="errors of ([^"]*)" src="data:image/png;base64,([^"]*)"', html):
-                if name in MAPPED:
-                    (images / f"accuracy-{scene}-{MAPPED[name]}.png").write_bytes(base64.b64decode(data))
+                if name in mapped:
+                    (images / f"accuracy-{scene}-{mapped[name]}.png").write_bytes(base64.b64decode(data))
             study = json.loads((written / "study.json").read_text())
             print(f"\n## {scene}\n\n{study['advice']}\n\n{traces(study)}\n\n{pictures(study)}")
 

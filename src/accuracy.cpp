@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lensplane {
 namespace {
@@ -26,25 +27,25 @@ double radians_apart(const Camera& camera, const Sphere& sphere, const SurfaceBa
   return (one.point - other.point).cross(other.direction).length() / one.point.length();
 }
 
-double radians_apart(const Ring& ring, TextureCoordinates a, TextureCoordinates b) {
-  const Vec3 p = ring_point_from_st(ring, a), q = ring_point_from_st(ring, b);
-  return p.cross(q).length() / (p.length() * q.length());
-}
-
 double share_of(std::size_t count, std::size_t all) {
   return all == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(all);
 }
 
 }  // namespace
 
+double angle_between(const Vec3& p, const Vec3& q) {
+  return std::atan2(p.cross(q).length(), p.dot(q));
+}
+
 double pixels_apart(const Camera& camera, const Surface& surface, const SurfaceBatch& a,
                     const SurfaceBatch& b, std::size_t i) {
   const TextureCoordinates p{a.s[i], a.t[i]}, q{b.s[i], b.t[i]};
   if (const auto* sphere = std::get_if<Sphere>(&surface))
     return radians_apart(camera, *sphere, a, b, i) / pixel_angle(camera);
-  if (const auto* ring = std::get_if<Ring>(&surface)) return radians_apart(*ring, p, q) / pixel_angle(camera);
+  if (const auto* ring = std::get_if<Ring>(&surface))
+    return angle_between(ring_point_from_st(*ring, p), ring_point_from_st(*ring, q)) / pixel_angle(camera);
   if (std::holds_alternative<LatLong>(surface))
-    return (sky_direction_from_st(p) - sky_direction_from_st(q)).length() / pixel_angle(camera);
+    return angle_between(sky_direction_from_st(p), sky_direction_from_st(q)) / pixel_angle(camera);
   return std::hypot((p.s - q.s) * camera.width, (p.t - q.t) * camera.height);
 }
 
@@ -56,7 +57,7 @@ RayError error_of_ray(const Tracer& tracer, const TraceBatch& a, const TraceBatc
     error.captured_differs |= (one == Outcome::Captured) != (other == Outcome::Captured);
     if (one != Outcome::Hit || other != Outcome::Hit) continue;
     const double px = pixels_apart(tracer.camera(), tracer.surfaces()[k], a.surfaces[k], b.surfaces[k], i);
-    error.px = std::max(error.px, px);
+    error.px = std::isnan(px) ? std::numeric_limits<double>::infinity() : std::max(error.px, px);
     error.compared = true;
   }
   return error;
@@ -64,12 +65,12 @@ RayError error_of_ray(const Tracer& tracer, const TraceBatch& a, const TraceBatc
 
 ErrorSummary summary_of(const std::vector<RayError>& errors) {
   ErrorSummary summary;
-  summary.rays = errors.size();
   std::vector<double> px;
-  std::size_t seen = 0, validity = 0, captured = 0;
+  std::size_t seen = 0, validity = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     validity += errors[i].validity_differs;
-    captured += errors[i].captured_differs;
+    summary.captured_differs += errors[i].captured_differs;
+    summary.rays += errors[i].compared || errors[i].validity_differs;
     if (!errors[i].compared) continue;
     px.push_back(errors[i].px);
     seen += errors[i].px > kSeenErrorPx;
@@ -78,7 +79,6 @@ ErrorSummary summary_of(const std::vector<RayError>& errors) {
   summary.compared = px.size();
   summary.share_seen = share_of(seen, summary.rays);
   summary.share_validity_differs = share_of(validity, summary.rays);
-  summary.share_captured_differs = share_of(captured, summary.rays);
   if (px.empty()) return summary;
   const auto least_of = [&](double share) {  // the least error that so many rays do not exceed
     const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(px.size()))) - 1;
@@ -88,6 +88,10 @@ ErrorSummary summary_of(const std::vector<RayError>& errors) {
   summary.median_px = least_of(0.5);
   summary.p99_px = least_of(0.99);
   return summary;
+}
+
+double ErrorSummary::judged_px() const {
+  return compared > 0 && share_validity_differs <= 0.01 ? p99_px : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace lensplane

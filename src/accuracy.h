@@ -15,6 +15,9 @@
 
 namespace lensplane {
 
+/// Radians, of vectors of any length, with all digits at any angle.
+double angle_between(const Vec3& p, const Vec3& q);
+
 /// Pixels between what two traces see on `surface` (in camera axes), which both have to hit. Spheres need the
 /// direction among the passes.
 double pixels_apart(const Camera& camera, const Surface& surface, const SurfaceBatch& a,
@@ -25,7 +28,7 @@ struct RayError {
   bool compared = false;          // both hit one of the surfaces
   bool validity_differs = false;  // one is valid somewhere where the other is not
   bool captured_differs = false;
-  double px = 0;  // the farthest apart on any surface that both hit
+  double px = 0;  // the farthest apart on any surface that both hit; infinite if that is no number
 };
 
 /// The error of ray `i` of a batch; `tracer` made either of both.
@@ -34,16 +37,21 @@ RayError error_of_ray(const Tracer& tracer, const TraceBatch& a, const TraceBatc
 /// Errors larger than this are counted: what can be seen in a picture that moves.
 inline constexpr double kSeenErrorPx = 0.1;
 
+/// Of rays that see something by either trace.
 struct ErrorSummary {
   std::size_t rays = 0;
-  std::size_t compared = 0;
-  double median_px = 0;  // of the rays that could be compared
-  double p99_px = 0;     // 99 % of these are no farther off
+  std::size_t compared = 0;  // of these; without any there is no median, nor what follows it
+  double median_px = 0;      // of the rays that could be compared
+  double p99_px = 0;         // 99 % of these are no farther off
   double most_px = 0;
-  std::size_t worst = 0;              // which ray that is
-  double share_seen = 0;              // of all rays: off by more than kSeenErrorPx
-  double share_validity_differs = 0;  // of all rays
-  double share_captured_differs = 0;  // of all rays
+  std::size_t worst = 0;              // which error that is
+  double share_seen = 0;              // of all: off by more than kSeenErrorPx
+  double share_validity_differs = 0;  // of all
+  std::size_t captured_differs = 0;   // rays that only one trace takes to be captured, seen or not
+
+  /// What 99 of 100 rays are within: p99_px, but infinite where more than one in a hundred cannot be
+  /// compared.
+  double judged_px() const;
 };
 
 ErrorSummary summary_of(const std::vector<RayError>& errors);

@@ -10,28 +10,27 @@
 namespace lensplane {
 namespace {
 
-/// So many steps fit into a side; at least one pixel is taken.
-int count_along(int side, int step) {
-  return std::max(1, side / step);
+/// Pixels along a side, one at least, and how many lie before the first.
+struct Along {
+  int count, first;
+};
+Along along(int side, int step) {
+  const int count = std::max(1, side / step);
+  return {count, (side - 1 - (count - 1) * step) / 2};
 }
 
 }  // namespace
 
 FilmPosition FilmGrid::at(int index) const {
-  const int first = step / 2;  // in the middle of its square
-  return {index % columns * step + first + 0.5, index / columns * step + first + 0.5};
+  return {index % columns * step + left + 0.5, index / columns * step + top + 0.5};
 }
 
 FilmGrid grid_of(const Camera& camera, int most) {
-  FilmGrid grid;
-  const auto fits = [&](int step) {
-    grid = {step, count_along(camera.width, step), count_along(camera.height, step)};
-    return static_cast<std::int64_t>(grid.columns) * grid.rows <= std::max(most, 1);
-  };
-  // No step is longer than the shorter side, or the frame's last pixels would be passed over.
-  int step = 1;
-  while (!fits(step) && step < std::min(camera.width, camera.height)) ++step;
-  return grid;
+  for (int step = 1;; ++step) {
+    const Along x = along(camera.width, step), y = along(camera.height, step);
+    const FilmGrid grid{step, x.count, y.count, x.first, y.first};
+    if (static_cast<std::int64_t>(x.count) * y.count <= std::max(most, 1)) return grid;
+  }
 }
 
 std::vector<TraceBatch> trace_grid(const Tracer& tracer, const FilmGrid& grid) {

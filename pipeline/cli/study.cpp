@@ -41,9 +41,9 @@ void run_study_command(const Options& options, const std::function<bool()>& inte
     study = run_study(shot, colours, frame, threads.count(), {},
                       {[&](const std::string& doing) { progress.show(doing); }, interrupted});
   }
+  if (!options.quiet) std::fputs(text_from_study(study).c_str(), stdout);
   write_study(folder, study);
-  if (!options.quiet)
-    std::fputs((text_from_study(study) + (folder / "study.html").string() + "\n").c_str(), stdout);
+  if (!options.quiet) std::fputs(((folder / "study.html").string() + "\n").c_str(), stdout);
   require_bounds(study);
   if (study.interrupted)
     throw Failure(ExitCode::TryAgain, "lensplane: interrupted; what was done is in " + folder.string());

@@ -18,7 +18,7 @@ std::string mark_of(bool pareto, bool of_shot) {
   return fmt::format("{}{}", pareto ? "*" : " ", of_shot ? "S" : " ");
 }
 
-/// "14 ms (13-17)"; of what was timed in part "about 12 s (11-13)".
+/// "14 ms (13-17)"; of what was timed in part "~12 s (11-13)".
 std::string text_of(const Timing& timing, double more_s = 0) {
   const bool in_s = timing.median_s + more_s >= 1;
   const double unit = in_s ? 1 : 1e3;
@@ -57,11 +57,9 @@ std::string trace_table(const Study& study) {
 std::string reference_text(const Study& study) {
   const Reference& r = study.reference;
   std::string text = fmt::format(
-      "errors in pixels, of {} x {} pixels (every {}. one) against geodesic to {:.1g} rad, which is itself "
-      "off by about "
-      "{} (99 %), {} at most",
-      r.grid.columns, r.grid.rows, r.grid.step, r.tolerance_rad, readable_pixels(r.own.p99_px),
-      readable_pixels(r.own.most_px));
+      "errors in pixels, at {}, against geodesic to {:.1g} rad,\nwhich is itself off by about {} (99 %), {} "
+      "at most",
+      readable_grid(r.grid), r.tolerance_rad, readable_pixels(r.own.p99_px), readable_pixels(r.own.most_px));
   if (r.closed_form) {
     text += fmt::format("; from the closed form of a single mass by {} (99 %), {} at most",
                         readable_pixels(r.closed_form->p99_px), readable_pixels(r.closed_form->most_px));
@@ -103,7 +101,7 @@ std::string text_from_study(const Study& study) {
   text +=
       "\n" + trace_table(study) + reference_text(study) + picture_table(study) + price_table(study) + "\n";
   for (const std::string& note : study.notes) text += "note: " + note + "\n";
-  text += "* as right as this is nothing faster   S the shot's own\n";
+  text += "* no other is both as fast and as right   S the shot's own   ~ timed on a part\n";
   return text + study.advice + "\n";
 }
 

@@ -14,20 +14,25 @@ namespace {
 template <class Row, class Seconds, class Error>
 void mark(std::vector<Row>& rows, Seconds seconds, Error error) {
   for (Row& row : rows) {
-    row.pareto = std::none_of(rows.begin(), rows.end(), [&](const Row& other) {
-      const bool no_worse = seconds(other) <= seconds(row) && error(other) <= error(row);
-      return no_worse && (seconds(other) < seconds(row) || error(other) < error(row));
-    });
+    row.pareto = std::isfinite(error(row)) && std::none_of(rows.begin(), rows.end(), [&](const Row& other) {
+                   const bool no_worse = seconds(other) <= seconds(row) && error(other) <= error(row);
+                   return no_worse && (seconds(other) < seconds(row) || error(other) < error(row));
+                 });
   }
 }
 
+/// The crudest of those that are within `px` and take no longer than the fastest of them, as far as times
+/// tell.
 const TraceRow* fastest_within(const Study& study, double px) {
-  const TraceRow* best = nullptr;
+  constexpr double kAsFast = 1.1;
+  double least_s = INFINITY;
   for (const TraceRow& row : study.traces) {
-    if (row.error.compared == 0 || row.error.p99_px > px) continue;
-    if (!best || row.seconds() < best->seconds()) best = &row;
+    if (row.error.judged_px() <= px) least_s = std::min(least_s, row.seconds());
   }
-  return best;
+  const auto row = std::find_if(study.traces.begin(), study.traces.end(), [&](const TraceRow& r) {
+    return r.error.judged_px() <= px && r.seconds() <= kAsFast * least_s;
+  });
+  return row == study.traces.end() ? nullptr : &*row;
 }
 
 std::string of_the_paper(const Study& study) {
@@ -36,6 +41,9 @@ std::string of_the_paper(const Study& study) {
   });
   if (row == study.traces.end() || row->error.compared == 0) return "";
   std::string text = fmt::format("; the paper's method is {} off", readable_pixels(row->error.p99_px));
+  if (row->error.share_validity_differs > 0.01)
+    text += fmt::format(", sees something else in {} of the pixels",
+                        readable_share(row->error.share_validity_differs));
   if (row->error.most_px > 0)
     text += fmt::format(", and {} at {}", readable_pixels(row->error.most_px), row->worst_at);
   return text;
@@ -46,7 +54,7 @@ std::string of_the_paper(const Study& study) {
 void mark_pareto(Study& study) {
   mark(
       study.traces, [](const TraceRow& row) { return row.seconds(); },
-      [](const TraceRow& row) { return row.error.compared > 0 ? row.error.p99_px : INFINITY; });
+      [](const TraceRow& row) { return row.error.judged_px(); });
   mark(
       study.pictures, [](const PictureRow& row) { return row.timing.median_s; },
       [](const PictureRow& row) { return -row.psnr_db; });
@@ -54,17 +62,16 @@ void mark_pareto(Study& study) {
 
 std::string advice_of(const Study& study) {
   if (study.traces.empty()) return "nothing was traced";
-  const bool any = std::any_of(study.traces.begin(), study.traces.end(),
-                               [](const TraceRow& row) { return row.error.compared > 0; });
-  if (!any) return "no pixel of the frame sees anything that could be compared";
+  const auto nearest = std::min_element(
+      study.traces.begin(), study.traces.end(),
+      [](const TraceRow& a, const TraceRow& b) { return a.error.judged_px() < b.error.judged_px(); });
+  if (!std::isfinite(nearest->error.judged_px()))
+    return "nothing in the frame could be compared with curved rays";
   const TraceRow* best = fastest_within(study, kSeenErrorPx);
   const std::string target = fmt::format("for {} px in 99 of 100 pixels", kSeenErrorPx);
   if (!best) {
-    const auto nearest = std::min_element(
-        study.traces.begin(), study.traces.end(),
-        [](const TraceRow& a, const TraceRow& b) { return a.error.p99_px < b.error.p99_px; });
     return fmt::format("{} no row does; the nearest is {}: {} off", target, name_of(nearest->rung.settings),
-                       readable_pixels(nearest->error.p99_px));
+                       readable_pixels(nearest->error.judged_px()));
   }
   return fmt::format("{} use {}: {}{}", target, name_of(best->rung.settings),
                      readable_seconds(best->seconds()), of_the_paper(study));
@@ -83,6 +90,12 @@ std::string readable_price(const Price& price) {
   if (price.seconds == 0) return "-";
   if (std::abs(price.seconds) < kNoise * price.base_s) return "too little to tell";
   return (price.on ? "" : "would add ") + readable_seconds(price.seconds);
+}
+
+std::string readable_grid(const FilmGrid& grid) {
+  const std::string pixels = fmt::format("{} x {} pixels", grid.columns, grid.rows);
+  return grid.step == 1 ? pixels + ", all that there are"
+                        : fmt::format("{}, one in {} both ways", pixels, grid.step);
 }
 
 std::string readable_memory(const std::optional<std::size_t>& bytes) {

@@ -2,9 +2,8 @@
 //
 // What every effect and pass adds to the time of a frame, and what the plan has left out.
 //
-// Each is measured by itself: the frame with it against the frame without. What a shot does not call for is
-// measured, too, where it could be switched on without saying more: that is what it would cost, and what is
-// saved.
+// Each is measured by itself: the frame with it against the frame without. Passes of the trace, finite
+// distance, and more rays at edges are measured also where the shot does without: that is what is saved.
 
 #pragma once
 
@@ -19,8 +18,8 @@ namespace lensplane {
 void price_traces(const Shot& shot, int frame, const StudyEffort& effort, const StudyHooks& hooks,
                   Study& study);
 
-/// Adds the prices of the picture: edges, stars, motion blur, glow, night, light, shadows, further crossings,
-/// the view. Throws Failure when an image or a catalogue cannot be read.
+/// Adds the prices of the picture, of the frame's instant: edges, stars, motion blur, glow, night side,
+/// light, shadows, further crossings, the view. Throws Failure when an image or a catalogue cannot be read.
 void price_pictures(const Shot& shot, const ColourConfig& colours, ShotAssets& assets, int frame,
                     const StudyEffort& effort, const StudyHooks& hooks, Study& study);
 

@@ -5,11 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/composite/compositor.h"
 #include "pipeline/sequence/frame_looks.h"
 #include "pipeline/shot/shot_scene.h"
+#include "pipeline/study/trace_study.h"
 #include "pipeline/study/true_pixels.h"
+#include "src/film_grid.h"
 
 namespace lensplane {
 namespace {
@@ -49,7 +52,30 @@ Tracer tracer_of(const Scene& scene, TraceSettings settings) {
   return {scene, plan_trace(scene, settings)};
 }
 
+/// Rays that are traced in a second, from a few of the frame's.
+double rays_per_second(const Tracer& tracer, const StudyEffort& effort) {
+  const FilmGrid grid = grid_of(tracer.camera(), rays_of(effort, tracer.plan().lenses.size()));
+  double seconds = 0;
+  timed(seconds, [&] { return trace_grid(tracer, grid); });
+  return grid.count() / seconds;
+}
+
+/// How many squares of true pixels are made each way: fewer where rays cost more, so that they take some
+/// seconds.
+int tiles_of(const StudyEffort& effort, const Tracer& tracer) {
+  constexpr double kFast = 3e6;  // rays per second with which all squares are made
+  const double share = std::min(1.0, rays_per_second(tracer, effort) / kFast);
+  return std::max(1, static_cast<int>(effort.truth_tiles * std::sqrt(share)));
+}
+
 }  // namespace
+
+double guess_picture_s(const Shot& shot, int frame, const StudyEffort& effort) {
+  const Scene scene = scene_at(shot, frame);
+  const Tracer tracer = tracer_of(scene, trace_at(shot, frame));
+  return static_cast<double>(scene.camera.full_width()) * scene.camera.full_height() /
+         rays_per_second(tracer, effort);
+}
 
 void study_pictures(const Shot& shot, ShotAssets& assets, int frame, const StudyEffort& effort,
                     const StudyHooks& hooks, Study& study) {
@@ -60,18 +86,30 @@ void study_pictures(const Shot& shot, ShotAssets& assets, int frame, const Study
   hooks.doing("pictures: the truth, by many rays");
   TraceSettings finest = rows.front().trace;
   if (finest.method == Method::Planes) finest.law = Law::Exact, finest.finite_distance = Choice::On;
-  const auto truth = true_tiles(tracer_of(scene, finest), looks, effort.truth_tiles, effort.truth_rays);
+  const Tracer true_tracer = tracer_of(scene, finest);
+  const auto truth = true_tiles(true_tracer, looks, tiles_of(effort, true_tracer), effort.truth_rays);
   study.truth_rays = effort.truth_rays * effort.truth_rays;
   for (const TrueTile& tile : truth) study.truth_pixels += tile.size * tile.size;
   const double pixels = static_cast<double>(scene.camera.full_width()) * scene.camera.full_height();
+  double spent = 0;
   for (PictureRow row : rows) {
     if ((study.interrupted = hooks.stop())) return;
+    if (spent > effort.pictures_s) {
+      study.notes.push_back(
+          fmt::format("{} of {} ways of sampling the picture are left out: the others took {:.0f} s",
+                      rows.size() - study.pictures.size(), rows.size(), spent));
+      return;
+    }
     hooks.doing(fmt::format("picture {} of {}: up to {} rays", study.pictures.size() + 1, rows.size(),
                             row.sampling.max));
     const Tracer tracer = tracer_of(scene, row.trace);
     const PeakMemory memory;
     Composite result;
-    row.timing = time_repeatedly(effort.repeats, [&] { result = composite(tracer, looks, row.sampling); });
+    row.timing = time_repeatedly(effort.repeats, [&] {
+      result = {};  // or two pictures would be in memory
+      result = composite(tracer, looks, row.sampling);
+    });
+    spent += row.timing.median_s * row.timing.repeats;
     row.peak_bytes = memory.bytes();
     row.rays_per_pixel = static_cast<double>(result.rays) / pixels;
     row.psnr_db = psnr_of(result.picture, truth);

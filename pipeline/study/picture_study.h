@@ -11,6 +11,9 @@
 
 namespace lensplane {
 
+/// About how long the rays of one picture of the frame take, from a few of them.
+double guess_picture_s(const Shot& shot, int frame, const StudyEffort& effort);
+
 /// Fills the rows of pictures: the frame's instant, without stars, motion blur and glow, which do not depend
 /// on how it is sampled. Throws Failure when an image cannot be read.
 void study_pictures(const Shot& shot, ShotAssets& assets, int frame, const StudyEffort& effort,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <new>
 
 #include "pipeline/image/failure.h"
 #include "pipeline/sequence/shot_assets.h"
@@ -25,6 +26,33 @@ std::string processor_name() {
   return "a processor without a name";
 }
 
+/// Images may be missing, and a picture too large for memory: traces are of use without them.
+template <class Work>
+void note_what_fails(const char* what, Study& study, Work work) {
+  try {
+    work();
+  } catch (const Failure& failure) {
+    study.notes.push_back(fmt::format("{}: {}", what, failure.what()));
+  } catch (const std::bad_alloc&) {
+    study.notes.push_back(fmt::format("{}: out of memory", what));
+  }
+}
+
+void add_pictures(const Shot& shot, const ColourConfig& colours, int frame, const StudyEffort& effort,
+                  const StudyHooks& hooks, Study& study) {
+  const double guess_s = guess_picture_s(shot, frame, effort);
+  if (guess_s > effort.pictures_s) {
+    study.notes.push_back(fmt::format("pictures are left out: the rays of one take about {:.0f} s", guess_s));
+    return;
+  }
+  ShotAssets assets(shot, colours);
+  note_what_fails("pictures are left out", study,
+                  [&] { study_pictures(shot, assets, frame, effort, hooks, study); });
+  if (study.interrupted) return;
+  note_what_fails("prices of the picture are left out", study,
+                  [&] { price_pictures(shot, colours, assets, frame, effort, hooks, study); });
+}
+
 }  // namespace
 
 Study run_study(const Shot& shot, const ColourConfig& colours, int frame, int threads,
@@ -36,14 +64,7 @@ Study run_study(const Shot& shot, const ColourConfig& colours, int frame, int th
   study.processor = processor_name();
   study_traces(shot, frame, effort, hooks, study);
   if (!study.interrupted) price_traces(shot, frame, effort, hooks, study);
-  try {
-    ShotAssets assets(shot, colours);
-    if (!study.interrupted) study_pictures(shot, assets, frame, effort, hooks, study);
-    if (!study.interrupted) price_pictures(shot, colours, assets, frame, effort, hooks, study);
-  } catch (const Failure& failure) {
-    if (failure.code() != ExitCode::BadInput) throw;
-    study.notes.push_back(std::string("pictures are left out: ") + failure.what());
-  }
+  if (!study.interrupted) add_pictures(shot, colours, frame, effort, hooks, study);
   mark_pareto(study);
   study.advice = advice_of(study);
   return study;
@@ -56,7 +77,7 @@ void require_bounds(const Study& study) {
     violations +=
         fmt::format("{}{} leaves out {} px where it says at most {} px{}", violations.empty() ? "" : "; ",
                     name_of(row.rung.settings), row.left_out.most_px, *row.bound_px,
-                    row.left_out.share_captured_differs > 0 ? ", and captures other light" : "");
+                    row.left_out.captured_differs > 0 ? ", and captures other light" : "");
   }
   if (!violations.empty()) throw Failure(ExitCode::BadShot, "lensplane: a bound is violated: " + violations);
 }

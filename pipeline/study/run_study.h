@@ -11,8 +11,8 @@
 
 namespace lensplane {
 
-/// Studies a frame. Where an image is missing or broken the part of pictures is left out, and a note says
-/// why. What `hooks` interrupt holds what was done until then. Throws Failure as scene_at.
+/// Studies a frame. Where an image is missing or broken pictures or their prices are left out, and a note
+/// says why. What `hooks` interrupt holds what was done until then. Throws Failure as scene_at.
 Study run_study(const Shot& shot, const ColourConfig& colours, int frame, int threads,
                 const StudyEffort& effort, const StudyHooks& hooks);
 

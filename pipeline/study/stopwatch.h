@@ -24,24 +24,29 @@ struct Timing {
 
 Timing timing_of(std::vector<double> seconds);
 
-/// How often work is repeated: until that takes `budget_s`, at least `least` and at most `most` times.
+/// How often work is repeated: until all runs take `budget_s`, at least `least` and at most `most` times.
 struct Repeats {
   double budget_s = 0.3;
   int least = 3;
   int most = 25;
   double longest_s = 0.5;  // of a single run: longer work is done in part, where that stands for the whole
+  double enough_s = 3.0;   // no more runs after so long, even if they are fewer than `least`
 };
 
 template <class Work>
 Timing time_repeatedly(const Repeats& repeats, Work work) {
   std::vector<double> seconds;
   double sum = 0;
-  for (int n = 0; n < repeats.least || (n < repeats.most && sum < repeats.budget_s); ++n) {
+  const auto more = [&](int runs) {
+    return sum < repeats.enough_s &&
+           (runs < repeats.least || (runs < repeats.most && sum < repeats.budget_s));
+  };
+  do {
     double once = 0;
     timed(once, work);
     seconds.push_back(once);
     sum += once;
-  }
+  } while (more(static_cast<int>(seconds.size())));
   return timing_of(std::move(seconds));
 }
 

@@ -101,10 +101,11 @@ struct Study {
 
 /// How much work goes into a study.
 struct StudyEffort {
-  int most_rays = 32768;  // compared of the frame; fewer with more than four masses, see rays_of()
-  Repeats repeats;        // of every row
-  int truth_tiles = 8;    // each way, that pictures are compared at
-  int truth_rays = 32;    // each way, in a pixel
+  int most_rays = 32768;   // compared of the frame; fewer with more than four masses, see rays_of()
+  Repeats repeats;         // of every row
+  int truth_tiles = 8;     // each way, that pictures are compared at
+  int truth_rays = 32;     // each way, in a pixel
+  double pictures_s = 40;  // of all pictures: ways of sampling that come after that are left out
 };
 
 }  // namespace lensplane

@@ -27,19 +27,20 @@ Json json_from(const Timing& timing) {
           {"of_a_part", timing.of_a_part}};
 }
 
-Json json_from(const ErrorSummary& e) {
-  return {{"rays", e.rays},
-          {"compared", e.compared},
-          {"median_px", e.median_px},
-          {"p99_px", e.p99_px},
-          {"most_px", e.most_px},
-          {"share_above_0.1_px", e.share_seen},
-          {"share_validity_differs", e.share_validity_differs}};
-}
-
-/// JSON has no infinity: null stands for no limit.
+/// JSON has no infinity: null stands for no limit, and where there is nothing.
 Json json_from_bound(double px) {
   return std::isfinite(px) ? Json(px) : Json();
+}
+
+Json json_from(const ErrorSummary& e) {
+  const auto of_compared = [&](double px) { return e.compared > 0 ? json_from_bound(px) : Json(); };
+  return {{"rays", e.rays},
+          {"compared", e.compared},
+          {"median_px", of_compared(e.median_px)},
+          {"p99_px", of_compared(e.p99_px)},
+          {"most_px", of_compared(e.most_px)},
+          {"share_above_0.1_px", e.share_seen},
+          {"share_validity_differs", e.share_validity_differs}};
 }
 
 Json json_from(const TraceSettings& s) {
@@ -192,9 +193,11 @@ Fields fields_of(const Study& study, const TraceRow& row) {
   fields["plan_s"] = number(row.plan_s);
   fields["rays_per_s"] = number(pixels / row.trace.median_s);
   fields["peak_bytes"] = text_of(row.peak_bytes);
-  fields["error_median_px"] = number(row.error.median_px);
-  fields["error_p99_px"] = number(row.error.p99_px);
-  fields["error_most_px"] = number(row.error.most_px);
+  if (row.error.compared > 0) {
+    fields["error_median_px"] = number(row.error.median_px);
+    fields["error_p99_px"] = number(row.error.p99_px);
+    fields["error_most_px"] = number(row.error.most_px);
+  }
   fields["share_above_0.1_px"] = number(row.error.share_seen);
   fields["share_validity_differs"] = number(row.error.share_validity_differs);
   if (!row.bound_px) return fields;
@@ -265,7 +268,7 @@ std::string json_from_study(const Study& study) {
                      {"prices", list_of(study.prices)},
                      {"lenses", list_of(study.lenses)},
                      {"left_out_px", json_from_bound(study.left_out_px)}};
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace lensplane

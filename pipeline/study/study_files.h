@@ -18,8 +18,8 @@ std::filesystem::path study_folder(const Shot& shot, int frame);
 /// Writes study.csv, study.json and study.html. Throws Failure (BadOutput).
 void write_study(const std::filesystem::path& folder, const Study& study);
 
-/// One line for each row: its part, what it is, and its figures; without header fields that its part does not
-/// have.
+/// A line with the columns' names, then one for each trace, picture and price. Fields that a row does not
+/// have are empty, and so is a bound that has no limit.
 std::string csv_from_study(const Study& study);
 
 /// Everything but the error maps.

@@ -74,13 +74,15 @@ std::string trace_table(const Study& study) {
   std::string rows;
   for (const TraceRow& row : study.traces) {
     const ErrorSummary& e = row.error;
-    rows += row_of("td",
-                   {name_of(row.rung.settings), readable_seconds(row.seconds()), spread_of(row.trace),
-                    fmt::format("{:.3g}", pixels / row.trace.median_s / 1e6), number(e.median_px),
-                    number(e.p99_px), number(e.most_px), readable_share(e.share_seen),
-                    readable_share(e.share_validity_differs), row.bound_px ? number(*row.bound_px) : "-",
-                    row.bound_px ? number(row.left_out.most_px) : "-", readable_memory(row.peak_bytes)},
-                   classes_of(row.pareto, row.rung.of_shot, row.violated));
+    const bool compared = e.compared > 0;
+    rows += row_of(
+        "td",
+        {name_of(row.rung.settings), readable_seconds(row.seconds()), spread_of(row.trace),
+         fmt::format("{:.3g}", pixels / row.trace.median_s / 1e6), compared ? number(e.median_px) : "-",
+         compared ? number(e.p99_px) : "-", compared ? number(e.most_px) : "-", readable_share(e.share_seen),
+         readable_share(e.share_validity_differs), row.bound_px ? number(*row.bound_px) : "-",
+         row.bound_px ? number(row.left_out.most_px) : "-", readable_memory(row.peak_bytes)},
+        classes_of(row.pareto, row.rung.of_shot, row.violated));
   }
   return table("traces",
                {"trace", "a frame", "trace alone, spread", "million rays/s", "median, px", "99 %, px",
@@ -91,21 +93,24 @@ std::string trace_table(const Study& study) {
 std::string reference_text(const Study& study) {
   const Reference& r = study.reference;
   std::string text = fmt::format(
-      "Errors are measured at {} x {} pixels, every {}. one both ways, against curved rays (geodesic) to "
-      "{:.1g} rad. A "
-      "trace by a hundred times that tolerance differs from it by {} in 99 of 100 pixels and {} at most: so "
-      "good the "
-      "reference is at least.",
-      r.grid.columns, r.grid.rows, r.grid.step, r.tolerance_rad, readable_pixels(r.own.p99_px),
-      readable_pixels(r.own.most_px));
+      "Errors are measured at {}, against curved rays (geodesic) to {:.1g} rad. A trace by a hundred times "
+      "that tolerance "
+      "differs from it by {} in 99 of 100 pixels and {} at most: so good the reference is at least.",
+      readable_grid(r.grid), r.tolerance_rad, readable_pixels(r.own.p99_px), readable_pixels(r.own.most_px));
   if (r.closed_form) {
-    text += fmt::format(" From the closed form for a single mass it differs by {} and {} at most.",
-                        readable_pixels(r.closed_form->p99_px), readable_pixels(r.closed_form->most_px));
+    text += fmt::format(
+        " From the closed form for a single mass it differs by {} and {} at most; {} are seen by only one.",
+        readable_pixels(r.closed_form->p99_px), readable_pixels(r.closed_form->most_px),
+        readable_share(r.closed_form->share_validity_differs));
   }
   return text +
-         " The time of a frame is planning and tracing, the median of all runs. Bound: what the plan says "
-         "that it "
-         "leaves out at most; left out: what it does leave out of the same planes with everything on.";
+         " Shares are of the pixels that see something by either trace, median, 99 % and most of those that "
+         "do by both. "
+         "The time of a frame is planning and tracing, the median of all runs. Bound: what the plan says "
+         "that it leaves "
+         "out at most; left out: what it does leave out of the same planes with everything on. Memory is "
+         "what was held "
+         "beyond what had been held before.";
 }
 
 std::string picture_table(const Study& study) {
@@ -159,7 +164,7 @@ std::string maps_of(const Study& study) {
         "<figure><img alt=\"errors of {0}\" src=\"{1}\"><figcaption>{0}: {2} in 99 of 100 "
         "pixels</figcaption></figure>\n",
         escaped(name_of(row.rung.settings)), data_uri_of(error_map(study.reference.grid, row.errors)),
-        readable_pixels(row.error.p99_px));
+        row.error.compared > 0 ? readable_pixels(row.error.p99_px) : "nothing");
   }
   return html;
 }

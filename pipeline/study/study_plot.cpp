@@ -22,6 +22,7 @@ struct Axis {
   double from, to;  // on the page
 
   double place(double value) const {
+    if (!std::isfinite(value)) return to;
     return from + (std::log10(value) - least) / (most - least) * (to - from);
   }
 };
@@ -61,8 +62,9 @@ const Kind& kind_of(const TraceSettings& settings) {
   return kKinds[4];
 }
 
+/// Infinite where too little could be compared: on the upper edge.
 double shown_error(const TraceRow& row) {
-  return std::max(row.error.p99_px, kLeastPx);
+  return std::max(row.error.judged_px(), kLeastPx);
 }
 
 std::string power(int exponent) {
@@ -100,7 +102,7 @@ std::string grid(const Axis& x, const Axis& y) {
 std::string front(const Study& study, const Axis& x, const Axis& y) {
   std::vector<const TraceRow*> rows;
   for (const TraceRow& row : study.traces) {
-    if (row.pareto && row.error.compared > 0) rows.push_back(&row);
+    if (row.pareto) rows.push_back(&row);
   }
   if (rows.empty()) return "";
   std::sort(rows.begin(), rows.end(), [](auto* a, auto* b) { return a->seconds() < b->seconds(); });
@@ -114,11 +116,15 @@ std::string front(const Study& study, const Axis& x, const Axis& y) {
 
 std::string point(const TraceRow& row, const Axis& x, const Axis& y) {
   const Kind& kind = kind_of(row.rung.settings);
-  const std::string title =
-      fmt::format("{}{}: {} a frame; off by {} (median), {} (99 %), {} at most{}", name_of(row.rung.settings),
-                  row.rung.of_shot ? " (the shot's own)" : "", readable_seconds(row.seconds()),
-                  readable_pixels(row.error.median_px), readable_pixels(row.error.p99_px),
-                  readable_pixels(row.error.most_px), row.violated ? "; VIOLATES ITS BOUND" : "");
+  const ErrorSummary& e = row.error;
+  const std::string off =
+      e.compared == 0 ? "nothing to compare"
+                      : fmt::format("off by {} (median), {} (99 %), {} at most; {} see something else",
+                                    readable_pixels(e.median_px), readable_pixels(e.p99_px),
+                                    readable_pixels(e.most_px), readable_share(e.share_validity_differs));
+  const std::string title = fmt::format(
+      "{}{}: {} a frame; {}{}", name_of(row.rung.settings), row.rung.of_shot ? " (the shot's own)" : "",
+      readable_seconds(row.seconds()), off, row.violated ? "; VIOLATES ITS BOUND" : "");
   const std::string ring = row.rung.of_shot ? R"(<circle r="10" class="own"/>)" : "";
   return fmt::format(
       R"svg(<g class="point" transform="translate({:.1f} {:.1f})">{}<path d="{}" style="{}"/><title>{}</title></g>)svg",
@@ -159,7 +165,7 @@ std::string plot_of(const Study& study) {
     fastest = std::min(fastest, row.seconds());
     slowest = std::max(slowest, row.seconds());
     least = std::min(least, shown_error(row));
-    most = std::max(most, shown_error(row));
+    if (std::isfinite(shown_error(row))) most = std::max(most, shown_error(row));
   }
   if (study.traces.empty()) fastest = slowest = 1;
   const Axis x = axis_over(fastest, slowest, kLeft, kWidth - kRight);

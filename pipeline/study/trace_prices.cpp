@@ -13,7 +13,8 @@ namespace {
 
 /// Tracing the frame by `settings`, in seconds.
 double seconds_of(const Scene& scene, const TraceSettings& settings, const StudyEffort& effort) {
-  return time_trace(Tracer(scene, plan_trace(scene, settings)), effort.repeats).median_s;
+  const FilmGrid grid = grid_of(scene.camera, rays_of(effort, scene.lenses.size()));
+  return time_trace(Tracer(scene, plan_trace(scene, settings)), grid, effort.repeats).median_s;
 }
 
 TraceSettings with(TraceSettings settings, bool Effects::*effect) {

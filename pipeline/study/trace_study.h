@@ -17,9 +17,9 @@ Scene study_scene(const Shot& shot, int frame);
 /// How many pixels of the frame are compared: as many as curved rays can be traced of in a second or so.
 int rays_of(const StudyEffort& effort, std::size_t masses);
 
-/// The time to trace the frame: its overscan, by bands of rows, as it is rendered. What takes long is traced
-/// in part, in rows evenly spread over the film.
-Timing time_trace(const Tracer& tracer, const Repeats& repeats);
+/// The time to trace the frame, overscan included, by bands of rows, as it is rendered. What takes long is
+/// traced in part: in rows evenly spread over the film, or, like all curved rays, at the pixels of `grid`.
+Timing time_trace(const Tracer& tracer, const FilmGrid& grid, const Repeats& repeats);
 
 /// Whether a plan leaves out more than it says. `left_out`: against the same planes with everything on. Where
 /// the plan knows a limit, both have to agree on which light is captured, too.

@@ -137,7 +137,7 @@ double psnr_of(const Picture& picture, const std::vector<TrueTile>& truth) {
     }
   }
   if (count == 0 || sum == 0) return kLargestPsnr;
-  if (peak == 0) return 0;
+  if (peak == 0 || !std::isfinite(sum)) return 0;
   return std::min(kLargestPsnr, 10 * std::log10(peak * peak * static_cast<double>(count) / sum));
 }
 

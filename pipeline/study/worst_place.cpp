@@ -14,6 +14,7 @@ std::string place_in_words(const Shot& shot, const Scene& scene, FilmPosition fi
   double nearest = std::numeric_limits<double>::infinity();
   std::size_t lens = 0;
   for (std::size_t i = 0; i < scene.lenses.size(); ++i) {
+    if (!(scene.lenses[i].m > 0)) continue;
     const Vec3 direction = camera.axes.local_from_parent(scene.lenses[i].position - camera.position);
     const auto at = film_from_direction<double>(camera, direction);
     if (!at) continue;

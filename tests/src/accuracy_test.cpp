@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "src/constants.h"
 #include "tests/src/film.h"
@@ -61,6 +62,26 @@ TEST(Accuracy, APixelAsideIsAPixelOnEverySurface) {
   }
 }
 
+TEST(Accuracy, FarApartItIsStillTheAngle) {
+  Scene scene;
+  scene.camera.projection = Projection::LatLong;
+  scene.camera.width = 360;  // a pixel is a degree
+  scene.camera.height = 180;
+  scene.surfaces = {LatLong{}};
+  const Tracer tracer(scene, plan_trace(scene, TraceSettings{}));
+  TraceBatch a = tracer.make_batch(), b = tracer.make_batch();
+  for (int i = 0; i < kBatchSize; ++i) {
+    a.x[i] = 100, b.x[i] = 100 + 1.25 * i;
+    a.y[i] = b.y[i] = 90;
+  }
+  tracer.trace(a);
+  tracer.trace(b);
+  for (std::size_t i = 0; i < kBatchSize; ++i)
+    EXPECT_NEAR(error_of_ray(tracer, a, b, i).px, 1.25 * static_cast<double>(i), 1e-9);
+  b.surfaces[0].s[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(error_of_ray(tracer, a, b, 3).px, std::numeric_limits<double>::infinity());
+}
+
 TEST(Accuracy, SaysWhereOnlyOneIsValid) {
   const TwoTraces traces = two_traces(Sphere{ahead(100), 0.2, {}}, 500);
   const RayError error = error_of_ray(traces.tracer, traces.a, traces.b, 0);
@@ -75,15 +96,27 @@ TEST(Accuracy, SummaryCountsByRank) {
   errors.push_back({false, true, true, 0});
   errors.push_back({false, false, false, 0});
   const ErrorSummary summary = summary_of(errors);
-  EXPECT_EQ(summary.rays, 202U);
+  EXPECT_EQ(summary.rays, 201U);  // without the one that sees nothing
   EXPECT_EQ(summary.compared, 200U);
   EXPECT_DOUBLE_EQ(summary.median_px, 0.099);
   EXPECT_DOUBLE_EQ(summary.p99_px, 0.197);
   EXPECT_DOUBLE_EQ(summary.most_px, 0.199);
   EXPECT_EQ(summary.worst, 0U);
-  EXPECT_DOUBLE_EQ(summary.share_seen, 99.0 / 202);
-  EXPECT_DOUBLE_EQ(summary.share_validity_differs, 1.0 / 202);
-  EXPECT_DOUBLE_EQ(summary.share_captured_differs, 1.0 / 202);
+  EXPECT_DOUBLE_EQ(summary.share_seen, 99.0 / 201);
+  EXPECT_DOUBLE_EQ(summary.share_validity_differs, 1.0 / 201);
+  EXPECT_EQ(summary.captured_differs, 1U);
+  EXPECT_EQ(summary.judged_px(), summary.p99_px);
+}
+
+TEST(Accuracy, WhatCannotBeComparedCountsAsWrong) {
+  std::vector<RayError> errors(98, {true, false, false, 0.01});
+  errors.push_back({false, true, false, 0});
+  EXPECT_EQ(summary_of(errors).judged_px(), std::numeric_limits<double>::infinity());
+  errors.resize(98);
+  errors.insert(errors.end(), 2, {true, true, false, 0.02});  // of one of several layers
+  EXPECT_EQ(summary_of(errors).judged_px(), std::numeric_limits<double>::infinity());
+  errors.back().validity_differs = false;
+  EXPECT_EQ(summary_of(errors).judged_px(), 0.02);
 }
 
 TEST(Accuracy, SummaryOfNothingIsNothing) {
@@ -91,6 +124,7 @@ TEST(Accuracy, SummaryOfNothingIsNothing) {
   EXPECT_EQ(summary.compared, 0U);
   EXPECT_EQ(summary.most_px, 0);
   EXPECT_EQ(summary.share_validity_differs, 1);
+  EXPECT_EQ(summary.judged_px(), std::numeric_limits<double>::infinity());
   EXPECT_EQ(summary_of({}).share_seen, 0);
 }
 

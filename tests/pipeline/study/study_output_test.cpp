@@ -80,11 +80,19 @@ TEST(StudyOutput, AdviceIsTheFastestThatIsRightEnough) {
       study.advice,
       "for 0.1 px in 99 of 100 pixels use planes, law auto, 0.1 px, finite distance auto: 14 ms; the paper's "
       "method is 0.4 px off, and 0.8 px at (3.5, 1.5)");
+  // What sees something else is no better for being fast.
+  study.traces[0].error = {4, 4, 0.01, 0.01, 0.01, 1, 0, 0.05, 0};
+  EXPECT_THAT(advice_of(study),
+              HasSubstr("use planes, law auto, 0.1 px, finite distance auto: 14 ms; the paper's method is "
+                        "0.01 px off, sees something else in 5.0 % of the pixels"));
+  mark_pareto(study);
+  EXPECT_FALSE(study.traces[0].pareto);
+  study = small_study();
   study.traces.resize(1);
   EXPECT_EQ(advice_of(study),
             "for 0.1 px in 99 of 100 pixels no row does; the nearest is shinotsuka-makino: 0.4 px off");
   study.traces[0].error = {};
-  EXPECT_EQ(advice_of(study), "no pixel of the frame sees anything that could be compared");
+  EXPECT_EQ(advice_of(study), "nothing in the frame could be compared with curved rays");
   study.traces.clear();
   EXPECT_EQ(advice_of(study), "nothing was traced");
 }
@@ -148,13 +156,30 @@ TEST(StudyOutput, JsonHasEverythingWithAllDigits) {
   EXPECT_EQ(json["advice"], study.advice);
 }
 
+TEST(StudyOutput, WhatComparesNothingIsNotCalledRight) {
+  Study study = small_study();
+  study.traces[0].error = {4, 0, 0, 0, 0, 0, 0, 1, 0};
+  mark_pareto(study);
+  EXPECT_FALSE(study.traces[0].pareto);
+  EXPECT_EQ(count_of(plot_of(study), "class=\"point\""), 4U);
+  EXPECT_THAT(plot_of(study), HasSubstr("nothing to compare"));
+  EXPECT_TRUE(nlohmann::json::parse(json_from_study(study))["traces"][0]["error"]["p99_px"].is_null());
+  EXPECT_THAT(advice_of(study), HasSubstr("use planes"));
+}
+
+TEST(StudyOutput, JsonTakesAnyPath) {
+  Study study = small_study();
+  study.notes = {"/tmp/\xff.png: no such image"};
+  EXPECT_EQ(nlohmann::json::parse(json_from_study(study))["notes"].size(), 1U);
+}
+
 TEST(StudyOutput, PlotHasAPointForEachTrace) {
   const std::string svg = plot_of(small_study());
   EXPECT_EQ(count_of(svg, "class=\"point\""), 4U);
   EXPECT_EQ(count_of(svg, "<title>"), 4U);
   EXPECT_THAT(svg, HasSubstr("class=\"front\""));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
-  EXPECT_THAT(svg, Not(HasSubstr("inf ")));
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
   EXPECT_THAT(plot_of(Study()), HasSubstr("</svg>"));
 }
 

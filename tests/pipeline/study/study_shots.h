@@ -17,7 +17,7 @@ namespace lensplane {
 
 /// Every row once, a few rays.
 inline StudyEffort little_effort(int rays = 400) {
-  return {rays, {0.0, 1, 1, 0.5}, 2, 8};
+  return {rays, {0.0, 1, 1}, 2, 8};
 }
 
 inline Shot shot_from(const std::string& text) {

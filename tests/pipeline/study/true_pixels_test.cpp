@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "pipeline/composite/compositor.h"
 
@@ -77,6 +78,8 @@ TEST(TruePixels, PsnrIsThatOfTheTilesPixels) {
   EXPECT_NEAR(psnr_of(picture, truth), 10 * std::log10(0.25 / (0.01 / 12)), 1e-4);
   picture.at(14, 24) = {0.5F, 0, 0, 1};
   EXPECT_EQ(psnr_of(picture, truth), kLargestPsnr);
+  picture.at(14, 24)[1] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(psnr_of(picture, truth), 0);
 }
 
 TEST(TruePixels, ThePictureItselfComesNear) {
