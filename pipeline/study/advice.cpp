@@ -40,13 +40,14 @@ std::string of_the_paper(const Study& study) {
     return r.rung.settings.method == Method::ShinotsukaMakino;
   });
   if (row == study.traces.end() || row->error.compared == 0) return "";
-  std::string text = fmt::format("; the paper's method is {} off", readable_pixels(row->error.p99_px));
-  if (row->error.share_validity_differs > 0.01)
-    text += fmt::format(", sees something else in {} of the pixels",
-                        readable_share(row->error.share_validity_differs));
-  if (row->error.most_px > 0)
-    text += fmt::format(", and {} at {}", readable_pixels(row->error.most_px), row->worst_at);
-  return text;
+  const std::string most =
+      row->error.most_px > 0 ? fmt::format(" ({} at {})", readable_pixels(row->error.most_px), row->worst_at)
+                             : "";
+  const std::string differs = row->error.share_validity_differs > 0.01
+                                  ? fmt::format(", and sees something else in {} of the pixels",
+                                                readable_share(row->error.share_validity_differs))
+                                  : "";
+  return fmt::format("; the paper's method is {} off{}{}", readable_pixels(row->error.p99_px), most, differs);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace lensplane {
 void mark_pareto(Study& study);
 
 /// One sentence: "for 0.1 px in 99 of 100 pixels use planes, law auto, 0.1 px, finite distance off: 14 ms;
-/// the paper's method is 0.4 px off, and 0.8 px at (203.5, 118.5), 12 px from near".
+/// the paper's method is 0.4 px off (0.8 px at (203.5, 118.5), 12 px from near)".
 std::string advice_of(const Study& study);
 
 /// "14 ms", "1.2 s".

@@ -53,8 +53,8 @@ Tracer tracer_of(const Scene& scene, TraceSettings settings) {
 }
 
 /// Rays that are traced in a second, from a few of the frame's.
-double rays_per_second(const Tracer& tracer, const StudyEffort& effort) {
-  const FilmGrid grid = grid_of(tracer.camera(), rays_of(effort, tracer.plan().lenses.size()));
+double rays_per_second(const Scene& scene, const Tracer& tracer, const StudyEffort& effort) {
+  const FilmGrid grid = grid_of(scene.camera, rays_of(effort, scene.lenses.size()));
   double seconds = 0;
   timed(seconds, [&] { return trace_grid(tracer, grid); });
   return grid.count() / seconds;
@@ -62,9 +62,9 @@ double rays_per_second(const Tracer& tracer, const StudyEffort& effort) {
 
 /// How many squares of true pixels are made each way: fewer where rays cost more, so that they take some
 /// seconds.
-int tiles_of(const StudyEffort& effort, const Tracer& tracer) {
+int tiles_of(const Scene& scene, const Tracer& tracer, const StudyEffort& effort) {
   constexpr double kFast = 3e6;  // rays per second with which all squares are made
-  const double share = std::min(1.0, rays_per_second(tracer, effort) / kFast);
+  const double share = std::min(1.0, rays_per_second(scene, tracer, effort) / kFast);
   return std::max(1, static_cast<int>(effort.truth_tiles * std::sqrt(share)));
 }
 
@@ -74,7 +74,7 @@ double guess_picture_s(const Shot& shot, int frame, const StudyEffort& effort) {
   const Scene scene = scene_at(shot, frame);
   const Tracer tracer = tracer_of(scene, trace_at(shot, frame));
   return static_cast<double>(scene.camera.full_width()) * scene.camera.full_height() /
-         rays_per_second(tracer, effort);
+         rays_per_second(scene, tracer, effort);
 }
 
 void study_pictures(const Shot& shot, ShotAssets& assets, int frame, const StudyEffort& effort,
@@ -87,7 +87,7 @@ void study_pictures(const Shot& shot, ShotAssets& assets, int frame, const Study
   TraceSettings finest = rows.front().trace;
   if (finest.method == Method::Planes) finest.law = Law::Exact, finest.finite_distance = Choice::On;
   const Tracer true_tracer = tracer_of(scene, finest);
-  const auto truth = true_tiles(true_tracer, looks, tiles_of(effort, true_tracer), effort.truth_rays);
+  const auto truth = true_tiles(true_tracer, looks, tiles_of(scene, true_tracer, effort), effort.truth_rays);
   study.truth_rays = effort.truth_rays * effort.truth_rays;
   for (const TrueTile& tile : truth) study.truth_pixels += tile.size * tile.size;
   const double pixels = static_cast<double>(scene.camera.full_width()) * scene.camera.full_height();

@@ -79,12 +79,13 @@ TEST(StudyOutput, AdviceIsTheFastestThatIsRightEnough) {
   EXPECT_EQ(
       study.advice,
       "for 0.1 px in 99 of 100 pixels use planes, law auto, 0.1 px, finite distance auto: 14 ms; the paper's "
-      "method is 0.4 px off, and 0.8 px at (3.5, 1.5)");
+      "method is 0.4 px off (0.8 px at (3.5, 1.5))");
   // What sees something else is no better for being fast.
   study.traces[0].error = {4, 4, 0.01, 0.01, 0.01, 1, 0, 0.05, 0};
-  EXPECT_THAT(advice_of(study),
-              HasSubstr("use planes, law auto, 0.1 px, finite distance auto: 14 ms; the paper's method is "
-                        "0.01 px off, sees something else in 5.0 % of the pixels"));
+  EXPECT_THAT(
+      advice_of(study),
+      HasSubstr("use planes, law auto, 0.1 px, finite distance auto: 14 ms; the paper's method is "
+                "0.01 px off (0.01 px at (3.5, 1.5)), and sees something else in 5.0 % of the pixels"));
   mark_pareto(study);
   EXPECT_FALSE(study.traces[0].pareto);
   study = small_study();
