@@ -92,6 +92,11 @@ void choose_levels(const FilmBounds& bounds, double budget_px, TileLevels& tiles
   }
 }
 
+bool any_wild(const FilmBounds& bounds) {
+  return std::any_of(bounds.tiles.begin(), bounds.tiles.end(),
+                     [](const TileBound& tile) { return tile.wild; });
+}
+
 EffectPlan finite_distance_plan(const TraceSettings& settings, bool flat, const FilmBounds& bounds) {
   EffectPlan effect{"finite distance", settings.finite_distance == Choice::On, 0.0, "asked for", 0.0};
   for (const LensBound& lens : bounds.lenses) effect.bound_px += lens.finite_px;
@@ -106,10 +111,8 @@ EffectPlan finite_distance_plan(const TraceSettings& settings, bool flat, const 
                               : "it would move no pixel by more than " + in_pixels(effect.bound_px);
   }
   effect.share = effect.on ? 1.0 : 0.0;
-  const bool wild =
-      std::any_of(bounds.tiles.begin(), bounds.tiles.end(), [](const TileBound& tile) { return tile.wild; });
   // Only with the law left open it is on there nevertheless.
-  if (wild && !effect.on && (settings.law || settings.finite_distance == Choice::Off)) {
+  if (any_wild(bounds) && !effect.on && (settings.law || settings.finite_distance == Choice::Off)) {
     effect.bound_px = kInfinity;
     effect.reason += "; near masses there is no limit";
   }
@@ -141,6 +144,7 @@ void plan_as_told(const Scene& scene, const TraceSettings& settings, const Effec
     plan.bound_px += lens.bound_px;
   }
   if (!finite.on) plan.bound_px += finite.bound_px;
+  if (law != Law::Exact && any_wild(bounds)) plan.bound_px = kInfinity;
 }
 
 /// Where the whole film lies near masses nothing is left out, no law but the exact one is used, and no bound

@@ -102,7 +102,10 @@ Passes pass_all(const Deflectors& everything, const Bundle& bundle, double unsee
     PassedPlane passed{std::abs(ahead), 0.0, result.masses.size(), 0};
     double more_spread = 0.0;
     for (const Deflector& deflector : plane.deflectors) {
-      if (passage == path.passages.size()) break;
+      if (passage == path.passages.size()) {
+        lenses[deflector.lens].wild = true;  // this plane's masses have captured the ray
+        continue;
+      }
       const double b = path.passages[passage++].b;
       const double along = std::abs((deflector.position - segment.start).dot(segment.direction));
       passed.way = std::max(passed.way, along);
@@ -128,6 +131,10 @@ Passes pass_all(const Deflectors& everything, const Bundle& bundle, double unsee
     if (result.wild) continue;
     across += passed.way * spread * (1.0 + spread);
     spread += more_spread;
+  }
+  if (path.captured && result.planes.size() < everything.outward) {
+    for (const Deflector& deflector : everything.planes[result.planes.size()].deflectors)
+      lenses[deflector.lens].wild = true;
   }
   if (!path.captured) result.last = path.segments.back().direction;
   result.last_spread = spread;

@@ -65,7 +65,12 @@ TEST(HardCases, ManyEqualSourcesAtOnePointAreOneOfTheirMass) {
     const Scene many = view_of(std::vector<Lens>(static_cast<std::size_t>(count), Lens{1e4 / count, place}));
     EXPECT_LT(largest_difference(one, many), 1e-15) << count;
   }
-  expect_finite_maps(view_of(std::vector<Lens>(1000, Lens{10.0, place})));
+#ifdef LENSPLANE_SANITIZE
+  constexpr std::size_t kMany = 50;  // through the same code, in less than half a minute
+#else
+  constexpr std::size_t kMany = 1000;
+#endif
+  expect_finite_maps(view_of(std::vector<Lens>(kMany, Lens{10.0, place})));
 }
 
 TEST(HardCases, TwoSourcesOneBitApartAreOneOfTheirMass) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "src/accuracy.h"
@@ -206,6 +207,28 @@ TEST(PlanBounds, ALensThatMovesNothingIsCulled) {
   const double b = 1e6 - 1e7 * std::tan(0.05);
   EXPECT_GE(plan.lenses[0].moves_px, 4e-3 / b / pixel_angle(scene.camera));
   EXPECT_LE(plan.lenses[0].moves_px, 10.0 * 4e-3 / b / pixel_angle(scene.camera));
+}
+
+TEST(PlanBounds, AGivenLawHasNoLimitWhereLightIsCaptured) {
+  // One tile holds the whole film; its middle ray is captured, by the first mass or by one behind others.
+  for (const bool alone : {true, false}) {
+    Scene scene;
+    scene.camera.width = 60;
+    scene.camera.height = 40;
+    scene.camera.fov_rad = 0.4;
+    scene.surfaces = {LatLong{}};
+    scene.lenses = {{1.0, {0, 0, -60}}};
+    if (!alone) scene.lenses = {{1e-9, {1, 0, -20}}, {1.0, {0, 0, -60}}, {1e-9, {1, 0, -60}}};
+    for (const Law law : {Law::Weak, Law::SecondOrder, Law::Exact}) {
+      TraceSettings settings;
+      settings.law = law;
+      settings.finite_distance = Choice::On;
+      const Plan plan = plan_trace(scene, settings);
+      EXPECT_EQ(plan.bound_px == std::numeric_limits<double>::infinity(), law != Law::Exact);
+      EXPECT_EQ(plan.lenses[alone ? 0 : 1].moves_px, std::numeric_limits<double>::infinity());
+    }
+    EXPECT_EQ(plan_trace(scene, TraceSettings{}).bound_px, 0.0);
+  }
 }
 
 TEST(PlanBounds, TightensWithTheTolerance) {

@@ -41,7 +41,7 @@ TEST(TraceStudy, TwentyRandomShotsKeepTheirBounds) {
   for (int n = 0; n < 20; ++n) {
     const std::string text = random_shot(random);
     SCOPED_TRACE(text);
-    const Study study = traces_of(shot_from(text), 1001, 250);
+    const Study study = traces_of(shot_from(text), 1001, 120);
     expect_kept_bounds(study);
     for (const TraceRow& row : study.traces) {
       if (!row.bound_px || !std::isfinite(*row.bound_px)) continue;
@@ -61,8 +61,8 @@ TEST(TraceStudy, ShippedScenesKeepTheirBounds) {
     if (entry.path().extension() != ".yaml") continue;
     SCOPED_TRACE(entry.path());
     const Shot full = read_shot(entry.path().string(), {});
-    const Shot shot = proxy_of(full, std::max(1, full.camera.width / 100));
-    expect_kept_bounds(traces_of(shot, shot.frames.front(), 150));
+    const Shot shot = proxy_of(full, std::max(1, full.camera.width / 64));
+    expect_kept_bounds(traces_of(shot, shot.frames.front(), 60));
     studied.insert(shot.name);
   }
   EXPECT_GE(studied.size(), 10U);
@@ -83,9 +83,9 @@ TEST(TraceStudy, ABoundIsViolatedByMoreAndByOtherCapturedLight) {
 
 TEST(TraceStudy, TheReferenceOfASingleMassIsSchwarzschilds) {
   // Its photon sphere fills a good part of the frame.
-  const Study study = traces_of(shot_from(one_mass(3000)), 1001, 6144);
+  const Study study = traces_of(shot_from(one_mass(3000)), 1001, 1536);
   ASSERT_TRUE(study.reference.closed_form);
-  EXPECT_GT(study.reference.closed_form->compared, 4000U);
+  EXPECT_GT(study.reference.closed_form->compared, 1000U);
   EXPECT_EQ(study.reference.closed_form->share_validity_differs, 0);
   EXPECT_LT(study.reference.closed_form->p99_px, 1e-6);
   EXPECT_LT(study.reference.own.p99_px, 1e-5);
