@@ -89,7 +89,8 @@ std::string readable_pixels(double px) {
 
 std::string readable_price(const Price& price) {
   if (price.seconds == 0) return "-";
-  if (std::abs(price.seconds) < kNoise * price.base_s) return "too little to tell";
+  const double least_s = kNoise * price.base_s;
+  if (price.on ? std::abs(price.seconds) < least_s : price.seconds < least_s) return "too little to tell";
   return (price.on ? "" : "would add ") + readable_seconds(price.seconds);
 }
 

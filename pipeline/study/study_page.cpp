@@ -194,14 +194,14 @@ std::string page_from_study(const Study& study) {
           " Green rows: no other is both as fast and as right. An orange edge: the shot's own.</p>\n";
   if (!study.pictures.empty()) {
     html += fmt::format(
-        "<h2>Pictures</h2>\n{}<p>Against {} rays a pixel, each a point, at {} pixels; without stars, motion "
-        "blur and glow.</p>\n",
+        "<h2>Pictures</h2>\n{}<p>Against {} rays a pixel, each a point, at {} pixels. Composited only: "
+        "without planning, stars, motion blur and glow.</p>\n",
         picture_table(study), study.truth_rays, study.truth_pixels);
   }
   if (!study.prices.empty()) {
     html += "<h2>What effects cost</h2>\n" + price_table(study) +
-            "<p>Only what is on is paid for. Of what is off, the trace's passes were switched on to see what "
-            "they would add.</p>\n";
+            "<p>Only what is on is paid for. What is off was switched on, where that could be, to see "
+            "what it would add.</p>\n";
   }
   if (!study.lenses.empty()) {
     html += fmt::format("<h2>What the plan leaves out</h2>\n<p>Of this shot, {} at most.</p>\n{}",

@@ -62,9 +62,9 @@ const Kind& kind_of(const TraceSettings& settings) {
   return kKinds[4];
 }
 
-/// Infinite where too little could be compared: on the upper edge.
+/// Infinite where nothing could be compared: on the upper edge.
 double shown_error(const TraceRow& row) {
-  return std::max(row.error.judged_px(), kLeastPx);
+  return row.error.compared > 0 ? std::max(row.error.p99_px, kLeastPx) : INFINITY;
 }
 
 std::string power(int exponent) {

@@ -125,6 +125,8 @@ TEST(StudyOutput, ReadsAsPeopleDo) {
   EXPECT_EQ(readable_price({"a", true, 0.5, 1, 0, ""}), "500 ms");
   EXPECT_EQ(readable_price({"a", false, 0.5, 1, 0, ""}), "would add 500 ms");
   EXPECT_EQ(readable_price({"a", true, -0.01, 1, 0, ""}), "too little to tell");
+  EXPECT_EQ(readable_price({"a", true, -0.5, 1, 0, ""}), "-500 ms");
+  EXPECT_EQ(readable_price({"a", false, -0.5, 1, 0, ""}), "too little to tell");
   EXPECT_EQ(readable_price({"a", false, 0, 1, 0, ""}), "-");
 }
 
