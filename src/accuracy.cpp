@@ -33,17 +33,15 @@ double share_of(std::size_t count, std::size_t all) {
 
 }  // namespace
 
-double angle_between(const Vec3& p, const Vec3& q) {
-  return std::atan2(p.cross(q).length(), p.dot(q));
-}
-
 double pixels_apart(const Camera& camera, const Surface& surface, const SurfaceBatch& a,
                     const SurfaceBatch& b, std::size_t i) {
   const TextureCoordinates p{a.s[i], a.t[i]}, q{b.s[i], b.t[i]};
   if (const auto* sphere = std::get_if<Sphere>(&surface))
     return radians_apart(camera, *sphere, a, b, i) / pixel_angle(camera);
   if (const auto* ring = std::get_if<Ring>(&surface))
-    return angle_between(ring_point_from_st(*ring, p), ring_point_from_st(*ring, q)) / pixel_angle(camera);
+    return angle_between(ring_point_from_st(*ring, p).normalized(),
+                         ring_point_from_st(*ring, q).normalized()) /
+           pixel_angle(camera);
   if (std::holds_alternative<LatLong>(surface))
     return angle_between(sky_direction_from_st(p), sky_direction_from_st(q)) / pixel_angle(camera);
   return std::hypot((p.s - q.s) * camera.width, (p.t - q.t) * camera.height);

@@ -15,9 +15,6 @@
 
 namespace lensplane {
 
-/// Radians, of vectors of any length, with all digits at any angle.
-double angle_between(const Vec3& p, const Vec3& q);
-
 /// Pixels between what two traces see on `surface` (in camera axes), which both have to hit. Spheres need the
 /// direction among the passes.
 double pixels_apart(const Camera& camera, const Surface& surface, const SurfaceBatch& a,

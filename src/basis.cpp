@@ -51,4 +51,8 @@ bool is_valid(const Basis& basis) {
   return basis.x.length2() > 0.5;
 }
 
+double angle_between(const Vec3& a, const Vec3& b) {
+  return 2.0 * std::atan2((a - b).length(), (a + b).length());
+}
+
 }  // namespace lensplane

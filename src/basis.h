@@ -32,6 +32,9 @@ Basis parent_from_local(const Basis& outer, const Basis& inner);
 /// The inverse of the above: `basis`, given in the parent of `frame`, expressed in the axes of `frame`.
 Basis local_from_parent(const Basis& frame, const Basis& basis);
 
+/// Radians between two unit vectors, with all digits however near or far from one another they are.
+double angle_between(const Vec3& a, const Vec3& b);
+
 /// Rotation about z first, then x, then y (order ZXY, as film cameras are exchanged). Angles in radians,
 /// counter-clockwise when looking against the axis.
 Basis basis_from_zxy(const Vec3& angles_rad);

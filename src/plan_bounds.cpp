@@ -26,10 +26,6 @@ struct Bundle {
   double spread;
 };
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  return 2.0 * std::atan2(length(a - b), length(a + b));
-}
-
 /// A rectangle of the film, in pixels.
 struct FilmTile {
   double left, top, width, height;

@@ -4,10 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "pipeline/cli/table.h"
-#include "pipeline/study/advice.h"
+#include "pipeline/study/readable.h"
 
 namespace lensplane {
 namespace {
@@ -27,29 +25,17 @@ std::string text_of(const Timing& timing, double more_s = 0) {
                      (timing.most_s + more_s) * unit);
 }
 
-std::string number(double px) {
-  return std::isfinite(px) ? fmt::format("{:.2g}", px) : "no limit";
-}
-
-std::string left_out_of(const TraceRow& row) {
-  if (!row.bound_px) return "-";
-  return number(row.left_out.most_px) + (row.violated ? " VIOLATES IT" : "");
-}
-
 std::string trace_table(const Study& study) {
   Rows rows;
   rows.push_back({"", "trace", "a frame", "Mrays/s", "median", "99 %", "most", "> 0.1 px", "validity",
                   "bound", "left out", "memory"});
-  const double pixels = static_cast<double>(study.camera.full_width()) * study.camera.full_height();
   for (const TraceRow& row : study.traces) {
-    const ErrorSummary& e = row.error;
-    const bool compared = e.compared > 0;
-    rows.push_back({mark_of(row.pareto, row.rung.of_shot), name_of(row.rung.settings),
-                    text_of(row.trace, row.plan_s), fmt::format("{:.3g}", pixels / row.trace.median_s / 1e6),
-                    compared ? number(e.median_px) : "-", compared ? number(e.p99_px) : "-",
-                    compared ? number(e.most_px) : "-", readable_share(e.share_seen),
-                    readable_share(e.share_validity_differs), row.bound_px ? number(*row.bound_px) : "-",
-                    left_out_of(row), readable_memory(row.peak_bytes)});
+    std::vector<std::string> cells = {mark_of(row.pareto, row.rung.of_shot), name_of(row.rung.settings),
+                                      text_of(row.trace, row.plan_s),
+                                      fmt::format("{:.3g}", study.rays_per_s(row) / 1e6)};
+    const std::vector<std::string> errors = error_cells(row);
+    cells.insert(cells.end(), errors.begin(), errors.end());
+    rows.push_back(cells);
   }
   return text_from_rows(rows);
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/study/readable.h"
+
 namespace lensplane {
 namespace {
 
@@ -76,36 +78,6 @@ std::string advice_of(const Study& study) {
   }
   return fmt::format("{} use {}: {}{}", target, name_of(best->rung.settings),
                      readable_seconds(best->seconds()), of_the_paper(study));
-}
-
-std::string readable_seconds(double seconds) {
-  if (std::abs(seconds) < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
-  return fmt::format("{:.3g} s", seconds);
-}
-
-std::string readable_pixels(double px) {
-  return std::isfinite(px) ? fmt::format("{:.2g} px", px) : "no limit";
-}
-
-std::string readable_price(const Price& price) {
-  if (price.seconds == 0) return "-";
-  const double least_s = kNoise * price.base_s;
-  if (price.on ? std::abs(price.seconds) < least_s : price.seconds < least_s) return "too little to tell";
-  return (price.on ? "" : "would add ") + readable_seconds(price.seconds);
-}
-
-std::string readable_grid(const FilmGrid& grid) {
-  const std::string pixels = fmt::format("{} x {} pixels", grid.columns, grid.rows);
-  return grid.step == 1 ? pixels + ", all that there are"
-                        : fmt::format("{}, one in {} both ways", pixels, grid.step);
-}
-
-std::string readable_memory(const std::optional<std::size_t>& bytes) {
-  return bytes ? fmt::format("{:.0f} MB", static_cast<double>(*bytes) / 1e6) : "-";
-}
-
-std::string readable_share(double share) {
-  return share > 0 && share < 1e-3 ? "< 0.1 %" : fmt::format("{:.1f} %", 100 * share);
 }
 
 }  // namespace lensplane

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <functional>
+#include <algorithm>
 
 #include "pipeline/composite/compositor.h"
 #include "pipeline/composite/star_layer.h"

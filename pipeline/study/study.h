@@ -4,7 +4,6 @@
 
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -97,6 +96,11 @@ struct Study {
 
   std::string advice;
   bool interrupted = false;
+
+  /// Rays of the frame, overscan included, that a row traces in a second.
+  double rays_per_s(const TraceRow& row) const {
+    return static_cast<double>(camera.full_width()) * camera.full_height() / row.trace.median_s;
+  }
 };
 
 /// How much work goes into a study.

@@ -52,7 +52,6 @@ Json json_from(const TraceSettings& s) {
 }
 
 Json json_from(const Study& study, const TraceRow& row) {
-  const double pixels = static_cast<double>(study.camera.full_width()) * study.camera.full_height();
   Json json = {{"name", name_of(row.rung.settings)},
                {"settings", json_from(row.rung.settings)},
                {"of_shot", row.rung.of_shot},
@@ -60,7 +59,7 @@ Json json_from(const Study& study, const TraceRow& row) {
                {"seconds", row.seconds()},
                {"plan_s", row.plan_s},
                {"trace", json_from(row.trace)},
-               {"rays_per_s", pixels / row.trace.median_s},
+               {"rays_per_s", study.rays_per_s(row)},
                {"peak_bytes", row.peak_bytes ? Json(*row.peak_bytes) : Json()},
                {"error", json_from(row.error)},
                {"worst_at", row.worst_at}};
@@ -187,11 +186,10 @@ Fields fields_of(const char* part, const std::string& name, bool of_shot, bool p
 }
 
 Fields fields_of(const Study& study, const TraceRow& row) {
-  const double pixels = static_cast<double>(study.camera.full_width()) * study.camera.full_height();
   Fields fields = fields_of("trace", name_of(row.rung.settings), row.rung.of_shot, row.pareto, row.trace);
   fields["seconds"] = number(row.seconds());
   fields["plan_s"] = number(row.plan_s);
-  fields["rays_per_s"] = number(pixels / row.trace.median_s);
+  fields["rays_per_s"] = number(study.rays_per_s(row));
   fields["peak_bytes"] = text_of(row.peak_bytes);
   if (row.error.compared > 0) {
     fields["error_median_px"] = number(row.error.median_px);

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "pipeline/image/version.h"
-#include "pipeline/study/advice.h"
 #include "pipeline/study/error_map.h"
+#include "pipeline/study/readable.h"
 #include "pipeline/study/study_plot.h"
 
 namespace lensplane {
@@ -65,24 +65,14 @@ std::string spread_of(const Timing& timing) {
                      timing.repeats, timing.of_a_part ? ", from a part" : "");
 }
 
-std::string number(double px) {
-  return std::isfinite(px) ? fmt::format("{:.2g}", px) : "no limit";
-}
-
 std::string trace_table(const Study& study) {
-  const double pixels = static_cast<double>(study.camera.full_width()) * study.camera.full_height();
   std::string rows;
   for (const TraceRow& row : study.traces) {
-    const ErrorSummary& e = row.error;
-    const bool compared = e.compared > 0;
-    rows += row_of(
-        "td",
-        {name_of(row.rung.settings), readable_seconds(row.seconds()), spread_of(row.trace),
-         fmt::format("{:.3g}", pixels / row.trace.median_s / 1e6), compared ? number(e.median_px) : "-",
-         compared ? number(e.p99_px) : "-", compared ? number(e.most_px) : "-", readable_share(e.share_seen),
-         readable_share(e.share_validity_differs), row.bound_px ? number(*row.bound_px) : "-",
-         row.bound_px ? number(row.left_out.most_px) : "-", readable_memory(row.peak_bytes)},
-        classes_of(row.pareto, row.rung.of_shot, row.violated));
+    Cells cells = {name_of(row.rung.settings), readable_seconds(row.seconds()), spread_of(row.trace),
+                   fmt::format("{:.3g}", study.rays_per_s(row) / 1e6)};
+    const Cells errors = error_cells(row);
+    cells.insert(cells.end(), errors.begin(), errors.end());
+    rows += row_of("td", cells, classes_of(row.pareto, row.rung.of_shot, row.violated));
   }
   return table("traces",
                {"trace", "a frame", "trace alone, spread", "million rays/s", "median, px", "99 %, px",
@@ -94,8 +84,8 @@ std::string reference_text(const Study& study) {
   const Reference& r = study.reference;
   std::string text = fmt::format(
       "Errors are measured at {}, against curved rays (geodesic) to {:.1g} rad. A trace by a hundred times "
-      "that tolerance "
-      "differs from it by {} in 99 of 100 pixels and {} at most: so good the reference is at least.",
+      "that tolerance differs from it by {} in 99 of 100 pixels and {} at most: so good the reference is at "
+      "least.",
       readable_grid(r.grid), r.tolerance_rad, readable_pixels(r.own.p99_px), readable_pixels(r.own.most_px));
   if (r.closed_form) {
     text += fmt::format(
@@ -105,12 +95,9 @@ std::string reference_text(const Study& study) {
   }
   return text +
          " Shares are of the pixels that see something by either trace, median, 99 % and most of those that "
-         "do by both. "
-         "The time of a frame is planning and tracing, the median of all runs. Bound: what the plan says "
-         "that it leaves "
-         "out at most; left out: what it does leave out of the same planes with everything on. Memory is "
-         "what was held "
-         "beyond what had been held before.";
+         "do by both. The time of a frame is planning and tracing, the median of all runs. Bound: what the "
+         "plan says that it leaves out at most; left out: what it does leave out of the same planes with "
+         "everything on. Memory is what was held beyond what had been held before.";
 }
 
 std::string picture_table(const Study& study) {
@@ -181,9 +168,8 @@ std::string notes_of(const Study& study) {
 std::string page_from_study(const Study& study) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><link rel=\"icon\" "
-      "href=\"data:,\"><title>{0}, frame {1}: what "
-      "accuracy costs in time</title><style>{2}</style></head><body>\n<h1>{0}, frame {1}: what accuracy "
-      "costs in "
+      "href=\"data:,\"><title>{0}, frame {1}: what accuracy costs in "
+      "time</title><style>{2}</style></head><body>\n<h1>{0}, frame {1}: what accuracy costs in "
       "time</h1>\n<p>{3} x {4} pixels, {5} {6}; {7} threads of {8}; lensplane {9}.</p>\n<p "
       "class=\"advice\">{10}.</p>\n",
       escaped(study.shot), study.frame, kStyle, study.camera.width, study.camera.height, study.masses,
@@ -200,8 +186,8 @@ std::string page_from_study(const Study& study) {
   }
   if (!study.prices.empty()) {
     html += "<h2>What effects cost</h2>\n" + price_table(study) +
-            "<p>Only what is on is paid for. What is off was switched on, where that could be, to see "
-            "what it would add.</p>\n";
+            "<p>Only what is on is paid for. What is off was switched on, where that could be, to see what "
+            "it would add.</p>\n";
   }
   if (!study.lenses.empty()) {
     html += fmt::format("<h2>What the plan leaves out</h2>\n<p>Of this shot, {} at most.</p>\n{}",

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/study/advice.h"
+#include "pipeline/study/readable.h"
 
 namespace lensplane {
 namespace {

@@ -155,13 +155,15 @@ TraceRow climb(const Rung& rung, const Yardstick& yardstick, const StudyEffort& 
   row.rung = rung;
   Plan plan;
   row.plan_s = time_repeatedly({0.0, 3, 3, 0.0}, [&] { plan = plan_trace(scene, rung.settings); }).median_s;
+  Plan compared = plan;
   {
     const PeakMemory memory;
     const Tracer tracer(scene, std::move(plan));
     row.trace = time_trace(tracer, yardstick.grid, effort.repeats);
     if (!row.trace.of_a_part) row.peak_bytes = memory.bytes();
   }
-  const Tracer tracer(scene, plan_trace(scene, to_compare(rung.settings)));
+  compared.effects.direction = true;
+  const Tracer tracer(scene, std::move(compared));
   const std::vector<TraceBatch> seen = trace_grid(tracer, yardstick.grid);
   row.errors = errors_of(tracer, yardstick.grid, seen, yardstick.curved);
   row.error = summary_of(row.errors);
@@ -233,8 +235,7 @@ void study_traces(const Shot& shot, int frame, const StudyEffort& effort, const 
   if (study.masses > 1)
     study.notes.emplace_back(
         "curved rays round several masses are right to the first order in each; what two masses do together, "
-        "of the order "
-        "of m1 m2/b^2, is in no method");
+        "of the order of m1 m2/b^2, is in no method");
   hooks.doing("the reference: curved rays");
   const Yardstick yardstick =
       make_yardstick(shot, scene, grid_of(scene.camera, rays_of(effort, study.masses)), study.reference);

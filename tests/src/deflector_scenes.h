@@ -40,8 +40,4 @@ inline double isotropic_radius(double r) {
   return (r - 1 + std::sqrt(r * r - 2 * r)) / 2;
 }
 
-inline double angle_between(const Vec3& a, const Vec3& b) {
-  return 2 * std::atan2((a - b).length(), (a + b).length());
-}
-
 }  // namespace lensplane

@@ -63,10 +63,6 @@ inline Probe probed(const Scene& scene, FilmPosition film) {
   return probe(scene, planned(scene), film);
 }
 
-inline double angle_between(const Vec3& a, const Vec3& b) {
-  return 2.0 * std::atan2((a - b).length(), (a + b).length());
-}
-
 /// The largest angle between what two scenes show at the same film positions, where both show the sky.
 inline double largest_difference(const Scene& a, const Scene& b) {
   const Plan plan_a = planned(a), plan_b = planned(b);

@@ -10,6 +10,7 @@
 #include "pipeline/image/image_reader.h"
 #include "pipeline/study/advice.h"
 #include "pipeline/study/error_map.h"
+#include "pipeline/study/readable.h"
 #include "pipeline/study/run_study.h"
 #include "pipeline/study/study_files.h"
 #include "pipeline/study/study_page.h"
