@@ -85,7 +85,7 @@ std::optional<Index> find_name(const std::vector<std::string>& names, const std:
 }
 
 LookAt read_look_at(const Value& value, const Value& camera, const ShotNames& names) {
-  LookAt look_at{{}, Keyed<Vec3>::constant({0, 1, 0}), value.location()};
+  LookAt look_at{{}, Keyed<Direction>::constant({{0, 1, 0}}), value.location()};
   if (const auto up = camera.find("up")) look_at.up = read_keyed_direction(*up);
   if (value.is_list() || value.is_map()) {
     look_at.target = read_keyed_vector(value, Dimension::Length);

@@ -48,7 +48,7 @@ struct LayerIndex {
 /// What the camera looks at: a point, a lens, or a layer with a centre.
 struct LookAt {
   std::variant<Keyed<Vec3>, LensIndex, LayerIndex> target;
-  Keyed<Vec3> up = Keyed<Vec3>::constant({0, 1, 0});
+  Keyed<Direction> up = Keyed<Direction>::constant({{0, 1, 0}});
   Location location;
 };
 
@@ -125,16 +125,16 @@ struct LatLongLayer {};
 struct SphereLayer {
   Keyed<Vec3> centre;
   Keyed<double> radius;
-  Keyed<Vec3> rotation;              // as Rotation
-  std::optional<Keyed<Vec3>> light;  // unit direction towards the light
-  std::optional<LayerImage> night;   // seen where the light does not come; only with light
+  Keyed<Vec3> rotation;                   // as Rotation
+  std::optional<Keyed<Direction>> light;  // towards the light
+  std::optional<LayerImage> night;        // seen where the light does not come; only with light
 };
 struct RingLayer {
   std::variant<Keyed<Vec3>, LayerIndex> centre;  // or that of a sphere
-  Keyed<Vec3> normal;                            // unit vector
-  Keyed<double> inner, outer;                    // metres
-  std::optional<LayerIndex> shadow_of;           // the sphere whose shadow falls on it
-  std::optional<Keyed<Vec3>> light;              // of that shadow; nothing: the sphere's
+  Keyed<Direction> normal;
+  Keyed<double> inner, outer;             // metres
+  std::optional<LayerIndex> shadow_of;    // the sphere whose shadow falls on it
+  std::optional<Keyed<Direction>> light;  // of that shadow; nothing: the sphere's
 };
 struct StarsLayer {
   LocatedText catalogue;   // a path

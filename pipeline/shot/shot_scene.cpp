@@ -75,7 +75,7 @@ Surface surface_at(const Shot& shot, const LayerSurface& surface, double frame) 
   const Layer& layer = shot.layers[surface.layer];
   if (const auto* sphere = std::get_if<SphereLayer>(&layer.kind)) return sphere_at(*sphere, frame);
   if (const auto* ring = std::get_if<RingLayer>(&layer.kind)) {
-    return Ring{centre_at(shot, layer, frame), axes_of_normal(value_at(ring->normal, frame).normalized()),
+    return Ring{centre_at(shot, layer, frame), axes_of_normal(value_at(ring->normal, frame)),
                 value_at(ring->inner, frame), value_at(ring->outer, frame), surface.crossing};
   }
   const auto* plate = std::get_if<PlateLayer>(&layer.kind);
@@ -148,16 +148,15 @@ TraceSettings trace_at(const Shot& shot, double frame) {
 std::optional<Vec3> light_at(const Layer& layer, double frame) {
   const auto* sphere = std::get_if<SphereLayer>(&layer.kind);
   if (!sphere || !sphere->light) return std::nullopt;
-  // Between keys that point in opposite directions the light may vanish for an instant.
-  return value_at(*sphere->light, frame).normalized();
+  return value_at(*sphere->light, frame);
 }
 
 std::optional<RingShadow> shadow_at(const Shot& shot, std::size_t layer, double frame) {
   const auto* ring = std::get_if<RingLayer>(&shot.layers[layer].kind);
   if (!ring || !ring->shadow_of) return std::nullopt;
   const auto& sphere = std::get<SphereLayer>(shot.layers[ring->shadow_of->index].kind);
-  const Keyed<Vec3>& light = ring->light ? *ring->light : *sphere.light;
-  return RingShadow{sphere_at(sphere, frame), value_at(light, frame).normalized()};
+  const Keyed<Direction>& light = ring->light ? *ring->light : *sphere.light;
+  return RingShadow{sphere_at(sphere, frame), value_at(light, frame)};
 }
 
 Shot proxy_of(Shot shot, int divisor) {

@@ -144,11 +144,11 @@ Vec3 Value::vector(Dimension dimension) const {
   return {xyz[0].quantity(dimension), xyz[1].quantity(dimension), xyz[2].quantity(dimension)};
 }
 
-Vec3 Value::direction() const {
+Direction Value::direction() const {
   const Vec3 v = vector(Dimension::Number);
   const double longest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (longest == 0) refuse("[0, 0, 0] points nowhere");
-  return (v / longest).normalized();
+  if (longest == 0) refuse("[0, 0, 0] points nowhere; allowed: a vector that is not null");
+  return {(v / longest).normalized()};
 }
 
 std::optional<KeyFrames> find_key_frames(const Value& value) {
@@ -187,7 +187,7 @@ Keyed<Vec3> read_keyed_vector(const Value& value, Dimension dimension) {
   return read_keyed(value, [dimension](const Value& v) { return v.vector(dimension); });
 }
 
-Keyed<Vec3> read_keyed_direction(const Value& value) {
+Keyed<Direction> read_keyed_direction(const Value& value) {
   return read_keyed(value, [](const Value& v) { return v.direction(); });
 }
 

@@ -61,8 +61,8 @@ class Value {
 
   /// A list of three quantities.
   Vec3 vector(Dimension dimension) const;
-  /// A vector of plain numbers that points somewhere.
-  Vec3 direction() const;
+  /// Where a vector of plain numbers points; its length says nothing.
+  Direction direction() const;
 
  private:
   const YamlNode* node_;
@@ -91,6 +91,6 @@ auto read_keyed(const Value& value, Read read) -> Keyed<decltype(read(value))> {
 Keyed<double> read_keyed_quantity(const Value& value, Dimension dimension);
 Keyed<double> read_keyed_positive(const Value& value, Dimension dimension);
 Keyed<Vec3> read_keyed_vector(const Value& value, Dimension dimension);
-Keyed<Vec3> read_keyed_direction(const Value& value);
+Keyed<Direction> read_keyed_direction(const Value& value);
 
 }  // namespace lensplane

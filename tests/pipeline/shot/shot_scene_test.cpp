@@ -49,6 +49,20 @@ TEST(ShotScene, RingsStandAroundTheirSphere) {
   EXPECT_LT((towards - Vec3(-1, 0, -1.09e9).normalized()).length(), 1e-15);
 }
 
+TEST(ShotScene, DirectionsTurnBetweenOppositeKeys) {
+  const Shot shot = with_ring({"layers.earth.light={keys: {1001: [0, 1, 0], 1003: [0, -9, 0]}}",
+                               "layers.ring.normal={keys: {1001: [0, 1, 1], 1003: [0, -1, -1]}}",
+                               "camera.up={keys: {1001: [0, 1, 1], 1003: [0, -1, -1]}, interpolate: smooth}",
+                               "camera.look_at=[1 m, 0 m, 0 m]"});
+  EXPECT_LT((*light_at(shot.layers[0], 1002) - Vec3(0, 0, 1)).length(), 1e-15);
+  EXPECT_LT((shadow_at(shot, 1, 1002)->light - Vec3(0, 0, 1)).length(), 1e-15);
+  EXPECT_NEAR(light_at(shot.layers[0], 1001.5)->dot(Vec3(0, 1, 0)), std::sqrt(0.5), 1e-15);
+  const Vec3 normal = std::get<Ring>(scene_at(shot, 1002).surfaces[1]).axes.y;
+  EXPECT_LT((normal - Vec3(0, -1, 1).normalized()).length(), 1e-15);
+  const Vec3 up = scene_at(shot, 1002).camera.axes.y;
+  EXPECT_LT((up - Vec3(0, -1, 1).normalized()).length(), 1e-15);
+}
+
 TEST(ShotScene, LayersThatLightCrossesAgainHaveFurtherSurfaces) {
   const auto listed = [](const Shot& shot) {
     std::string text;
