@@ -135,7 +135,7 @@ LENSPLANE_ALWAYS_INLINE inline Rgba mean_along_rows(Texels& texels, double x, do
     const Rgba* texel = texels.row(0, in_row.first, row, count);
     for (int n = 0; n < count; n += Taps::kCount) sum.add(weights + n, texel + n);
   }
-  return sum.sum().mean();
+  return sum.sum().mean_or([&] { return texels.nearest(0, x, y); });
 }
 
 /// Rows are weighed, and within each its columns.
@@ -149,7 +149,7 @@ LENSPLANE_ALWAYS_INLINE inline Rgba mean_along_columns(Texels& texels, double x,
     for (int n = 0; n < Taps::kCount; ++n) weights[n] = by * run.taps.weight[n];
     sum.add(weights, texels.row(0, run.first, row, Taps::kCount));
   }
-  return sum.sum().mean();
+  return sum.sum().mean_or([&] { return texels.nearest(0, x, y); });
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ LENSPLANE_KERNEL Rgba elliptical_mean(Texels& texels, int level, double x, doubl
     add_row(texels.row(level, first, row, 8 * eights), eights, static_cast<float>(first - centre),
             static_cast<float>(1 / variance), static_cast<float>(base), total);
   }
-  return total.mean();
+  return total.mean_or([&] { return texels.nearest(level, x, y); });
 }
 
 }  // namespace lensplane

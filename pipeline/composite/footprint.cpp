@@ -53,4 +53,17 @@ Axes axes_of(const Covariance& covariance) {
   return axes;
 }
 
+Covariance widened(const Covariance& covariance, double least) {
+  const double mean = (covariance.xx + covariance.yy) / 2;
+  const double half = (covariance.xx - covariance.yy) / 2;
+  const double radius = std::sqrt(half * half + covariance.xy * covariance.xy);
+  const double major = mean + radius, minor = mean - radius;
+  if (!(major > least)) return {least, 0, least};
+  if (minor >= least) return covariance;
+  // (major - C) / (major - minor) is 1 along the shorter axis and 0 along the longer one.
+  const double lift = (least - minor) / (major - minor);
+  return {covariance.xx + lift * (major - covariance.xx), covariance.xy - lift * covariance.xy,
+          covariance.yy + lift * (major - covariance.yy)};
+}
+
 }  // namespace lensplane

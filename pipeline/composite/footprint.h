@@ -39,7 +39,7 @@ struct Covariance {
 /// The pixel filter in texels of a picture of `width` x `height`, `scale` left out of account.
 Covariance covariance_in_texels(const Footprint& footprint, int width, int height);
 
-/// The variances along the axes of an ellipse.
+/// The variances along the axes of an ellipse, neither of them negative.
 struct AxisVariances {
   double major = 0;
   double minor = 0;
@@ -57,5 +57,9 @@ Axes axes_of(const Covariance& covariance);
 
 /// The ellipse with these axes.
 Covariance covariance_from(const Axes& axes);
+
+/// The same with both variances at least `least` > 0, whatever they were: what is left of an ellipse when
+/// another's variance has been taken off may be less than nothing along an axis.
+Covariance widened(const Covariance& covariance, double least);
 
 }  // namespace lensplane

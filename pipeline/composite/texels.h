@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "pipeline/composite/texel_place.h"
@@ -50,6 +51,11 @@ class Texels {
       return from.texels + std::ptrdiff_t{row - window.y} * window.width + (column - window.x);
     }
     return found(level, column, row, count);
+  }
+
+  /// The texel whose centre is nearest to (x, y), counted in texels from the centre of the first.
+  Rgba nearest(int level, double x, double y) {
+    return *row(level, static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)), 1);
   }
 
  private:

@@ -66,10 +66,7 @@ Covariance left_on_level(const std::vector<TexelLevel>& levels, std::size_t leve
                            static_cast<double>(coarse.window.display_height) / whole.display_height);
   left.xx -= coarse.variance_x;
   left.yy -= coarse.variance_y;
-  const double lacking = std::max(0.0, kSmallestVariance - variances_of(left).minor);
-  left.xx = std::max(left.xx + lacking, kSmallestVariance);
-  left.yy = std::max(left.yy + lacking, kSmallestVariance);
-  return left;
+  return widened(left, kSmallestVariance);
 }
 
 double texels_in(const Covariance& c) {
@@ -144,7 +141,7 @@ Rgba filtered_texels(Texels& texels, TextureCoordinates st, const Footprint& foo
   for_each_polar_part(st, footprint, [&](double weight, const PolarPart& part) {
     sum.add(weight, seen(texels, part.st, part.footprint, 1));
   });
-  return sum.mean();
+  return sum.mean_or([&] { return seen(texels, st, footprint, 1); });
 }
 
 }  // namespace lensplane

@@ -21,12 +21,12 @@ struct RowSum {
   Float4 colour{0, 0, 0, 0};
   float weight = 0;
 
-  /// As WeightedSum::mean.
-  Rgba mean() const {
-    Rgba mean{0, 0, 0, 0};
-    if (weight > 0) {
-      for (std::size_t c = 0; c < 4; ++c) mean[c] = colour[c] / weight;
-    }
+  /// As WeightedSum::mean_or.
+  template <class Otherwise>
+  Rgba mean_or(Otherwise otherwise) const {
+    if (!(weight > 0)) return otherwise();
+    Rgba mean;
+    for (std::size_t c = 0; c < 4; ++c) mean[c] = colour[c] / weight;
     return mean;
   }
 };
@@ -76,12 +76,13 @@ struct WeightedSum {
     for (std::size_t c = 0; c < 4; ++c) sum[c] += by * static_cast<double>(colour[c]);
     weight += by;
   }
-  /// Divided by the sum of weights; transparent black without any.
-  Rgba mean() const {
-    Rgba mean{0, 0, 0, 0};
-    if (weight > 0) {
-      for (std::size_t c = 0; c < 4; ++c) mean[c] = static_cast<float>(sum[c] / weight);
-    }
+  /// Divided by the sum of weights; where nothing has been added there is no mean, and `otherwise()` is it: a
+  /// texel, so that no hole opens in a picture.
+  template <class Otherwise>
+  Rgba mean_or(Otherwise otherwise) const {
+    if (!(weight > 0)) return otherwise();
+    Rgba mean;
+    for (std::size_t c = 0; c < 4; ++c) mean[c] = static_cast<float>(sum[c] / weight);
     return mean;
   }
 };
