@@ -45,34 +45,143 @@ Number way_to_plane(const Disc& disc, const Vector<Number>& point, const Vector<
   return -height_over(disc, point) / constant<Number>(disc.normal).dot(direction);
 }
 
-/// `way`, which is a place on the stretch, brought within its ends: they bound it as numbers, without
-/// derivatives.
+/// `way`, which is a place on a stretch of this length, brought within its ends: they bound it as numbers,
+/// without derivatives.
 template <class Number>
-Number within(const RaySegment<Number>& stretch, const Number& way) {
-  return way + Number(std::clamp(value_of(way), 0.0, value_of(stretch.length)) - value_of(way));
+Number within(double length, const Number& way) {
+  return way + Number(std::clamp(value_of(way), 0.0, length) - value_of(way));
 }
 
 /// Where a stretch goes through the plane.
 template <class Number>
 StretchHit<Number> cross_straight(const Disc& disc, const RaySegment<Number>& stretch) {
-  const Number way = within(stretch, way_to_plane(disc, stretch.start, stretch.direction));
+  const Number way = within(value_of(stretch.length), way_to_plane(disc, stretch.start, stretch.direction));
   return {stretch.start + stretch.direction * way, value_of(stretch.direction), value_of(way)};
 }
 
-/// The same beside the masses: where the light would be at the plane it is shifted; from there it is a little
-/// way to the plane, where the shift is another, and again a much smaller one.
+/// A place of the light on a stretch.
+struct LightPlace {
+  double way;     // metres from the stretch's start
+  Vec3 point;     // metres
+  double height;  // over the disc's plane, metres
+};
+
+/// Light beside the masses, by its way along a stretch.
+struct ShiftedLight {
+  const Disc& disc;
+  const RaySegment<double>& stretch;
+  const Deflectors& finite;
+
+  double rate() const { return disc.normal.dot(stretch.direction); }
+  LightPlace at(double way) const {
+    const Vec3 point = stretch.start + stretch.direction * way + finite_shift(finite, stretch, way);
+    return {way, point, height_over(disc, point)};
+  }
+  bool is_at(std::int8_t side, const LightPlace& place) const { return side_at(disc, place.height) == side; }
+
+  /// How fast it moves.
+  Vec3 velocity(double way) const {
+    const RaySegment<Dual> fixed{constant<Dual>(stretch.start), constant<Dual>(stretch.direction),
+                                 Dual(stretch.length), stretch.bends};
+    return stretch.direction + derivative_by_x(finite_shift(finite, fixed, Dual(way, 1.0, 0.0)));
+  }
+};
+
+constexpr int kMaxTries = 60;
+
+/// A place by which the light has come to `side`. The straight stretch is there in the end.
+LightPlace place_beyond(const ShiftedLight& light, double height_at_start, std::int8_t side) {
+  if (light.stretch.length < kInfinity) return light.at(light.stretch.length);
+  LightPlace place =
+      light.at(std::max(std::abs(height_at_start), light.disc.tolerance) / std::abs(light.rate()));
+  for (int tries = 0; tries < kMaxTries && !light.is_at(side, place); ++tries)
+    place = light.at(2.0 * place.way);
+  return place;
+}
+
+/// Has the light reached the plane? Then it is led on to it, if that is still on the stretch.
+bool reach_plane(const ShiftedLight& light, LightPlace& place) {
+  if (!(std::abs(place.height) <= light.disc.tolerance)) return false;
+  const double step = within(light.stretch.length, place.way - place.height / light.rate()) - place.way;
+  place = {place.way + step, place.point + light.stretch.direction * step,
+           place.height + light.rate() * step};
+  return true;
+}
+
+/// The zero of the height on the line through two places, metres along the stretch.
+double secant(const LightPlace& a, const LightPlace& b) {
+  return b.way - b.height * ((b.way - a.way) / (b.height - a.height));
+}
+
+/// Where the light comes to `side` of the disc: on the plane, or at an end of the stretch. By the secant's
+/// zero, for which an end that stays counts half each time (the Illinois rule).
+LightPlace find_within(const ShiftedLight& light, std::int8_t side) {
+  LightPlace low = light.at(0.0);
+  if (light.is_at(side, low)) return low;
+  LightPlace high = place_beyond(light, low.height, side);
+  int stayed = 0;  // 1: the low end moved last, -1: the high one
+  for (int tries = 0; tries < kMaxTries; ++tries) {
+    const double way = secant(low, high);
+    if (!(way > low.way && way < high.way)) break;
+    LightPlace place = light.at(way);
+    if (reach_plane(light, place)) return place;
+    if (light.is_at(side, place)) {
+      high = place;
+      if (stayed == -1) low.height *= 0.5;
+      stayed = -1;
+    } else {
+      low = place;
+      if (stayed == 1) high.height *= 0.5;
+      stayed = 1;
+    }
+  }
+  return light.at(high.way);
+}
+
+/// The same, first from where the stretch itself crosses the plane: from where the light is then it is a
+/// little way to the plane.
+LightPlace find_crossing(const ShiftedLight& light, std::int8_t side) {
+  const auto on_stretch = [&](double way) { return way >= 0.0 && way <= light.stretch.length; };
+  const double straight = way_to_plane(light.disc, light.stretch.start, light.stretch.direction);
+  if (!on_stretch(straight)) return find_within(light, side);
+  LightPlace before = light.at(straight);
+  double way = straight - before.height / light.rate();
+  for (int tries = 0; tries < 4 && on_stretch(way); ++tries) {
+    LightPlace place = light.at(way);
+    if (reach_plane(light, place)) return place;
+    way = secant(before, place);
+    before = place;
+  }
+  return find_within(light, side);
+}
+
+/// A place with the derivatives of where the ray meets the plane, or of the light there where it does not.
+Vec3 with_derivatives(const ShiftedLight&, const RaySegment<double>&, const LightPlace& place) {
+  return place.point;
+}
+DualVec3 with_derivatives(const ShiftedLight& light, const RaySegment<Dual>& stretch,
+                          const LightPlace& place) {
+  DualVec3 point = stretch.start + stretch.direction * Dual(place.way) +
+                   finite_shift(light.finite, stretch, Dual(place.way));
+  point += constant<Dual>(place.point - value_of(point));
+  const Vec3 velocity = light.velocity(place.way);
+  const double slope = light.disc.normal.dot(velocity);
+  if (slope == 0.0 || !(std::abs(place.height) <= light.disc.tolerance)) return point;
+  const Dual height = height_over(light.disc, point);
+  return point + constant<Dual>(velocity) * Dual(0.0, -height.dx / slope, -height.dy / slope);
+}
+
+/// Where the light beside a stretch comes to `side` of the disc; where it is there as the stretch begins, or
+/// only as it ends, there.
 template <class Number>
 StretchHit<Number> cross_shifted(const Disc& disc, const RaySegment<Number>& stretch,
-                                 const Deflectors& finite) {
-  const auto light_at = [&](const Number& way) {
-    return stretch.start + stretch.direction * way + finite_shift(finite, stretch, way);
-  };
-  Number way = within(stretch, way_to_plane(disc, stretch.start, stretch.direction));
-  way = within(stretch, way + way_to_plane(disc, light_at(way), stretch.direction));
-  const Vector<Number> near = light_at(way);
-  const Number rest = way_to_plane(disc, near, stretch.direction);
-  return {near + stretch.direction * rest, shifted(finite, values_of(stretch), value_of(way)).direction,
-          value_of(way) + value_of(rest)};
+                                 const Deflectors& finite, std::int8_t side) {
+  const RaySegment<double> seen = values_of(stretch);
+  const ShiftedLight light{disc, seen, finite};
+  const LightPlace place = find_crossing(light, side);
+  const Vec3 start = seen.start + finite_shift(finite, seen, 0.0);
+  return {with_derivatives(light, stretch, place), straight_between(start, place.point, seen).direction,
+          place.way};
 }
 
 }  // namespace
@@ -129,7 +238,7 @@ std::optional<StretchHit<Number>> meet_disc(const Disc& disc, const RaySegment<N
   const std::int8_t side = last_side(disc, seen, finite, passage.side);
   if (side == passage.side) return std::nullopt;
   passage.side = side;
-  const auto crossing = finite ? cross_shifted(disc, stretch, *finite) : cross_straight(disc, stretch);
+  const auto crossing = finite ? cross_shifted(disc, stretch, *finite, side) : cross_straight(disc, stretch);
   if (!count_crossing(disc, value_of(crossing.point), passage)) return std::nullopt;
   return crossing;
 }

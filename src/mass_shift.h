@@ -44,7 +44,7 @@ LENSPLANE_ALWAYS_INLINE inline Number shift_after(const Number& z, const Number&
 }
 
 /// The shift of a stretch, `way` metres from its start. A mass that the light, having turned back, comes
-/// towards again counts as if beside it.
+/// towards again counts as if beside it; the light does not pass it on the other side.
 template <class Number>
 LENSPLANE_ALWAYS_INLINE inline Vector<Number> shift_by_mass(const Deflector& deflector, Bent bent,
                                                             const Vector<Number>& start,
@@ -58,9 +58,12 @@ LENSPLANE_ALWAYS_INLINE inline Vector<Number> shift_by_mass(const Deflector& def
   const bool aside = value_of(distance2) > 0.0;
   const Number b2 = select(aside, distance2, Number(1.0));
   const Number beyond = way - along;
-  const Number z = select(bent == Bent::Before && value_of(beyond) < 0.0, Number(0.0), beyond);
+  const bool returns = bent == Bent::Before && value_of(beyond) < 0.0;
+  const Number z = select(returns, Number(0.0), beyond);
   const Number share = bent == Bent::NotYet ? shift_before(z, mass.dot(direction), b2) : shift_after(z, b2);
-  return across * select(aside, 2.0 * deflector.m * share, Number(0.0));
+  const Number shift = 2.0 * deflector.m * share;
+  const bool past = returns && value_of(shift) > 1.0;
+  return across * select(aside, select(past, Number(1.0), shift), Number(0.0));
 }
 
 }  // namespace lensplane

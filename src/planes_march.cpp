@@ -60,6 +60,76 @@ Number way_to(const Number& ahead, bool finite_distance) {
   return finite_distance && value_of(ahead) < 0.0 ? Number(0.0) : ahead;
 }
 
+/// Where a ray's line is nearest to a mass.
+template <class Number>
+struct FootPoint {
+  Number along;           // metres from where the line begins
+  Vector<Number> across;  // from there to the mass
+  Number b;               // how far that is
+};
+
+template <class Number>
+FootPoint<Number> foot_point(const Deflector& deflector, const Vector<Number>& start,
+                             const Vector<Number>& direction) {
+  const Vector<Number> to_mass = constant<Number>(deflector.position) - start;
+  const Number along = to_mass.dot(direction);
+  const Vector<Number> across = to_mass - direction * along;
+  return {along, across, length(across)};
+}
+
+/// How far a ray along `direction` runs from the camera to its closest approach; nothing where that has no
+/// influence.
+template <class Number>
+std::optional<Number> way_from_camera(const Deflector& deflector, bool finite_distance,
+                                      const Vector<Number>& direction) {
+  if (!finite_distance) return std::nullopt;
+  return constant<Number>(deflector.position).dot(direction);
+}
+
+/// Metres from where light on a line that passes a mass at the distance `b` comes into its photon sphere to
+/// where the line is nearest to the mass; 0 when it does not until there.
+double way_through_photon_sphere(double m, double b) {
+  const double radius = kPhotonSphere * m;
+  if (!(b > 0.0)) return radius;
+  const auto inside = [&](double ahead) {
+    const double aside = b - 2.0 * m * b / (std::hypot(ahead, b) + ahead);
+    return std::hypot(ahead, std::max(aside, 0.0)) < radius;
+  };
+  if (!inside(0.0)) return 0.0;
+  double within = 0.0, before = radius;  // the light comes ever nearer
+  constexpr int kHalvings = 40;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (within + before);
+    (inside(middle) ? within : before) = middle;
+  }
+  return before;
+}
+
+/// Metres along a line to where light ends that the mass captures.
+double capture_way(const Deflector& deflector, const Vec3& start, const Vec3& direction) {
+  const auto [along, across, b] = foot_point(deflector, start, direction);
+  return along - way_through_photon_sphere(deflector.m, b);
+}
+
+/// Ends a path in a mass of the plane that its last stretch leads to. To an inclined ray a mass may lie
+/// before those of planes that come first: then an earlier stretch ends there.
+template <class Number>
+void end_in_mass(const DeflectorPlane& plane, bool finite_distance, RayPath<Number>& path) {
+  const RaySegment<Number>& last = path.segments.back();
+  const auto capture = capture_by(plane, finite_distance, value_of(last.start), value_of(last.direction));
+  if (!capture) return;
+  double way = capture->way;
+  while (way < 0.0 && path.segments.size() > 1) {
+    path.segments.resize(path.segments.size() - 2);  // and the chord before it
+    path.lengths.resize(path.segments.size());
+    const RaySegment<Number>& ray = path.segments.back();
+    path.bends = ray.bends;
+    way = std::min(value_of(ray.length),
+                   capture_way(*capture->mass, value_of(ray.start), value_of(ray.direction)));
+  }
+  path.segments.back().length = Number(finite_distance ? std::max(way, 0.0) : way);
+}
+
 /// Where the ray that ends `path` goes on behind a plane; nothing when it is captured, and ends, there.
 template <class Number>
 std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_distance,
@@ -69,16 +139,11 @@ std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_
   const Vector<Number> reference = ray.start + ray.direction * ahead;
   PlaneSums<Number> sums;
   for (const Deflector& deflector : plane.deflectors) {
-    const Vector<Number> position = constant<Number>(deflector.position);
-    const Vector<Number> to_mass = position - reference;
-    const Number along = to_mass.dot(ray.direction);
-    const Vector<Number> across = to_mass - ray.direction * along;
-    const Number b = length(across);
-    std::optional<Number> from_camera;
-    if (finite_distance) from_camera = position.dot(ray.direction);
-    const auto bent = bend_by(deflector, b, from_camera);
+    const auto [along, across, b] = foot_point(deflector, reference, ray.direction);
+    const auto bent = bend_by(deflector, b, way_from_camera(deflector, finite_distance, ray.direction));
     if (!bent) {
       path.segments.back().length = way_to(ahead, finite_distance);
+      end_in_mass(plane, finite_distance, path);
       return std::nullopt;
     }
     sums.bend += across * bent->per_b;
@@ -194,6 +259,18 @@ std::optional<Bend<Number>> bend_by(const Deflector& deflector, const Number& b,
   const Number excess_share = 0.25 * excess * (2.0 - cosine) * per_b * b;  // h(cos R), but for a factor
   const double weak = 2.0 * m / deflector.index;
   return Bend<Number>{weak * per_b + excess_share * per_b * b, weak * per_b2 + excess_share * per_b};
+}
+
+std::optional<Capture> capture_by(const DeflectorPlane& plane, bool finite_distance, const Vec3& start,
+                                  const Vec3& direction) {
+  std::optional<Capture> first;
+  for (const Deflector& deflector : plane.deflectors) {
+    const auto [along, across, b] = foot_point(deflector, start, direction);
+    if (bend_by(deflector, b, way_from_camera(deflector, finite_distance, direction))) continue;
+    const double way = capture_way(deflector, start, direction);
+    if (!first || way < first->way) first = Capture{&deflector, way};
+  }
+  return first;
 }
 
 template <class Number>

@@ -28,6 +28,17 @@
 
 namespace lensplane {
 
+/// Where light ends that a mass captures: where, to the first order of finite_shift.h, it comes into the
+/// photon sphere, or else where its line is nearest to the mass.
+struct Capture {
+  const Deflector* mass;
+  double way;  // metres from where its line begins; negative before that
+};
+
+/// The first capture of the line from `start` along `direction` by the masses of a plane, if there is any.
+std::optional<Capture> capture_by(const DeflectorPlane& plane, bool finite_distance, const Vec3& start,
+                                  const Vec3& direction);
+
 /// The path from the camera along the unit vector `direction`: through the outward planes in their order;
 /// light that has turned back then meets the masses in the order of their closest approaches.
 /// Captured: b' <= 3 sqrt(3) m of a mass ahead; a camera inside the photon sphere sees out only away from the

@@ -13,6 +13,7 @@
 #include "src/constants.h"
 #include "src/finite_shift.h"
 #include "src/march_batch.h"
+#include "src/planes_march.h"
 #include "src/single_ray.h"
 #include "src/sphere_reach.h"
 
@@ -96,6 +97,28 @@ LineBatch<Number> chords_between(const Sight& sight, int bends, const Vec3& cent
   return chord;
 }
 
+/// Rays that the plane number `plane` has captured, which `before` does not yet say, end in its masses. Those
+/// that would have ended on an earlier stretch are marked irregular.
+template <class Number>
+void end_in_masses(const Deflectors& deflectors, std::size_t plane, const LineBatch<Number>& before,
+                   LineBatch<Number>& rays, Ends& ends) {
+  if (!any_of(rays.captured)) return;
+  for (int i = 0; i < kBatchSize; ++i) {
+    if (rays.captured[i] == 0.0 || before.captured[i] != 0.0) continue;
+    const auto capture = capture_by(deflectors.planes[plane], deflectors.finite_distance,
+                                    value_of(before.start.get(i)), value_of(before.direction.get(i)));
+    if (!capture) continue;
+    const bool clamped = deflectors.finite_distance && capture->way < 0.0;
+    ends.at[i] = clamped ? 0.0 : capture->way;
+    if (capture->way < 0.0 && plane > 0) rays.irregular[i] = 1.0;
+  }
+}
+
+/// Marks the rays irregular that are so in `from`.
+void add_irregular(const BatchArray& from, BatchArray& irregular) {
+  for (int i = 0; i < kBatchSize; ++i) irregular[i] = std::max(irregular[i], from[i]);
+}
+
 /// Traces the batch through the planes of `deflectors`. True when it leaves rays to others, which `irregular`
 /// then names.
 template <class Number>
@@ -112,17 +135,19 @@ bool march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
   for (std::size_t k = 0; k < count; ++k) {
     if (bodies) {
       end_nearest(deflectors.planes[k].centre, deflectors.finite_distance, rays, ends);
-      see_bodies(sight, ends, static_cast<int>(k), Stretch::Straight, rays, batch);
+      before = rays;
     }
-    if (bodies) before = rays;
     pass_plane(deflectors, k, work, rays);
     if (bodies) {
       const int bends = static_cast<int>(k);
+      end_in_masses(deflectors, k, before, rays, ends);
+      see_bodies(sight, ends, bends, Stretch::Straight, before, batch);
+      add_irregular(before.irregular, rays.irregular);
       find_near_chords(sight, Stretches<Number>{before, ends, bends, sight.finite}, rays, near);
       if (!any_of(near)) continue;
       LineBatch<Number> chord =
           chords_between(sight, bends, deflectors.planes[k].centre, before, ends, near, rays, chord_ends);
-      see_bodies(sight, chord_ends, static_cast<int>(k), Stretch::Chord, chord, batch);
+      see_bodies(sight, chord_ends, bends, Stretch::Chord, chord, batch);
       std::copy_n(chord.irregular, kBatchSize, rays.irregular);
     }
   }
