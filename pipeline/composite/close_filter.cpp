@@ -56,7 +56,7 @@ class Marginal {
   const float* from(int i) const { return &weights_[static_cast<std::size_t>(i - span_.first)]; }
 
   /// More than there can be, those eight included.
-  static constexpr int kMost = static_cast<int>(2 * 3.3 * kLongestCloseSigma) + 2 * Taps::kCount;
+  static constexpr int kMost = static_cast<int>(2 * 3.5 * kLongestCloseSigma) + 2 * Taps::kCount;
 
  private:
   int count() const { return span_.last - span_.first + 1; }
@@ -71,8 +71,8 @@ class Marginal {
       }
       return;
     }
-    // One dimension's share of the window loses a little less variance than two do.
-    const double widened = (variance + kTriangleVariance) / 0.94;
+    // Lowered as a whole: along one line that is as near to a Gaussian, and costs least.
+    const double widened = (variance + kTriangleVariance) / kVarianceLeft;
     span_ = span_around(middle, std::sqrt(static_cast<double>(kCut) * widened));
     const auto per_variance = static_cast<float>(1 / widened);
     const auto offset = static_cast<float>(span_.first - middle);

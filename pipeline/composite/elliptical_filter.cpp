@@ -21,7 +21,7 @@ LENSPLANE_ALWAYS_INLINE inline void add_row(const Rgba* texels, int eights, floa
   for (int n = 0; n < 8 * eights; n += 8) {
     const Float8 d = (offset + static_cast<float>(n)) + Float8{0, 1, 2, 3, 4, 5, 6, 7};
     const Float8 q = per_variance * d * d + base;
-    const Float8 weights = gaussian(q < kCut ? q : Float8{} + kCut) - kEdgeWeight;
+    const Float8 weights = windowed_gaussian(q < kCut ? q : Float8{} + kCut);
     sum.add(weights > 0 ? weights : Float8{}, texels + n);  // rounding makes nothing less than nothing
   }
   total.add(sum.sum());

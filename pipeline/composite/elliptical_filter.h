@@ -3,9 +3,8 @@
 // The elliptical weighted average: texels of one level under a Gaussian of any axes and direction.
 //
 // The ellipse is walked row by row, so that the cost is its area, however long and slanted it is. The
-// Gaussian ends where it has fallen to kEdgeWeight of its centre, is lowered by that much so that texels come
-// and go smoothly, and is widened so that its variance is what was asked for. Paul S. Heckbert, Fundamentals
-// of Texture Mapping and Image Warping, Berkeley 1989.
+// Gaussian ends as gaussian_window.h says. Paul S. Heckbert, Fundamentals of Texture Mapping and Image
+// Warping, Berkeley 1989.
 
 #pragma once
 
@@ -15,7 +14,7 @@
 namespace lensplane {
 
 /// How many texels an ellipse holds per unit of the product of its standard deviations.
-inline constexpr double kTexelsPerEllipse = 35;
+inline constexpr double kTexelsPerEllipse = 38;
 
 /// Mean of a level's texels around (x, y), counted in texels from the centre of the first. The shorter axis
 /// of `covariance` has to be at least kSmallestVariance, or the pattern of the texels shows.
