@@ -6,13 +6,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "pipeline/composite/edge_finder.h"
+#include "pipeline/composite/edge_pixel.h"
 #include "src/bodies.h"
 
 namespace lensplane {
@@ -31,42 +31,6 @@ struct TileCounts {
   std::int64_t rays = 0;
   std::int64_t refined = 0;
 };
-
-/// The rays of one pixel that holds an edge.
-struct EdgePixel {
-  int column, row;  // of the tile
-  std::array<Rgba, kMostSamples> seen;
-  int rays = 0;
-  std::vector<int> hits;  // per surface: how many rays meet it
-};
-
-Rgba mean_of(const Rgba* colours, int count) {
-  Rgba sum{0, 0, 0, 0};
-  for (int i = 0; i < count; ++i) {
-    for (std::size_t c = 0; c < 4; ++c) sum[c] += colours[i][c];
-  }
-  for (float& channel : sum) channel /= static_cast<float>(count);
-  return sum;
-}
-
-/// The standard error of a pixel's mean, as seen: from the means of its rays four by four, each of which
-/// covers the pixel evenly.
-float seen_error(const EdgePixel& pixel) {
-  const int groups = pixel.rays / 4;
-  if (groups < 2) return 0;
-  const Rgba mean = mean_of(pixel.seen.data(), pixel.rays);
-  float worst = 0;
-  for (std::size_t c = 0; c < 4; ++c) {
-    float variance = 0;
-    for (int g = 0; g < groups; ++g) {
-      const float off = seen_brightness(mean_of(&pixel.seen[static_cast<std::size_t>(4 * g)], 4)[c]) -
-                        seen_brightness(mean[c]);
-      variance += off * off;
-    }
-    worst = std::max(worst, variance / static_cast<float>(groups * (groups - 1)));
-  }
-  return std::sqrt(worst);
-}
 
 /// What became of a batch: its rays were traced and may meet something; they meet nothing; or that was known
 /// before, and no ray was traced.
@@ -160,7 +124,7 @@ class TileTaker {
 
   void count(const EdgePixel& pixel) {
     for (std::size_t k = 0; k < points_.size(); ++k) {
-      if (in_frame(film(pixel.column, pixel.row))) counts_.hits[k] += double(pixel.hits[k]) / pixel.rays;
+      if (in_frame(film(pixel.column(), pixel.row()))) counts_.hits[k] += pixel.share_of(k);
     }
   }
 
@@ -203,14 +167,14 @@ class TileTaker {
 
   /// Looks where one ray does; returns the other pixels.
   std::vector<EdgePixel> look_at_centres(const CentreGrid& grid, Picture& picture) {
-    const std::vector<std::uint8_t> edges =
-        sampling_.max > 1 ? grid.edges() : std::vector<std::uint8_t>(grid.size(), 0);
+    const std::vector<PixelKind> kinds =
+        sampling_.max > 1 ? grid.kinds() : std::vector<PixelKind>(grid.size(), PixelKind::Smooth);
     std::vector<EdgePixel> edge_pixels;
     for (int row = 0; row < tile_.height; ++row) {
       for (int column = 0; column < tile_.width; ++column) {
         const std::size_t at = grid.place(column, row);
-        if (edges[at]) {
-          edge_pixels.push_back({column, row, {}, 0, {}});
+        if (kinds[at] != PixelKind::Smooth) {
+          edge_pixels.emplace_back(column, row, kinds[at], points_.size());
           continue;
         }
         count(film(column, row), grid.points(at));
@@ -223,13 +187,13 @@ class TileTaker {
   /// Takes the rays number `from` to `until` of every pixel.
   void add_rays(const std::vector<EdgePixel*>& pixels, int from, int until) {
     const auto each = static_cast<std::size_t>(until - from);
-    const auto number = [&](std::size_t n) { return static_cast<std::size_t>(from) + n % each; };
     trace(
         pixels.size() * each,
         [&](std::size_t n) {
           const EdgePixel& pixel = *pixels[n / each];
-          const SampleOffset offset = sample_offsets()[static_cast<std::size_t>(sampling_.first) + number(n)];
-          const FilmPosition centre = film(pixel.column, pixel.row);
+          const std::size_t number = static_cast<std::size_t>(from) + n % each;
+          const SampleOffset offset = sample_offsets()[static_cast<std::size_t>(sampling_.first) + number];
+          const FilmPosition centre = film(pixel.column(), pixel.row());
           return FilmPosition{centre.x + offset.x, centre.y + offset.y};
         },
         [&](TraceBatch& batch) {
@@ -237,26 +201,20 @@ class TileTaker {
           return Found::Something;
         },
         [&](std::size_t n, std::size_t i) {
-          EdgePixel& pixel = *pixels[n / each];
           for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
-          for (std::size_t k = 0; k < points_.size(); ++k) pixel.hits[k] += points_[k].hit ? 1 : 0;
-          pixel.seen[number(n)] = viewer_.see(points_, kSampleScale);
+          pixels[n / each]->add(points_, viewer_.see(points_, kSampleScale));
         });
-    for (EdgePixel* pixel : pixels) pixel->rays = until;
   }
 
   void look_at_edges(std::vector<EdgePixel>& pixels, Picture& picture) {
     std::vector<EdgePixel*> wanting;
-    for (EdgePixel& pixel : pixels) {
-      pixel.hits.assign(points_.size(), 0);
-      wanting.push_back(&pixel);
-    }
+    for (EdgePixel& pixel : pixels) wanting.push_back(&pixel);
     const int first = std::min(kFirstSamples, sampling_.max);
     add_rays(wanting, 0, first);
-    std::erase_if(wanting, [&](const EdgePixel* p) { return seen_error(*p) <= sampling_.threshold; });
+    std::erase_if(wanting, [&](const EdgePixel* p) { return p->error() <= sampling_.threshold; });
     if (first < sampling_.max) add_rays(wanting, first, sampling_.max);
     for (const EdgePixel& pixel : pixels) {
-      picture.at(tile_.left + pixel.column, tile_.top + pixel.row) = mean_of(pixel.seen.data(), pixel.rays);
+      picture.at(tile_.left + pixel.column(), tile_.top + pixel.row()) = pixel.mean();
       count(pixel);
     }
     counts_.refined += static_cast<std::int64_t>(pixels.size());
@@ -273,10 +231,6 @@ class TileTaker {
 };
 
 }  // namespace
-
-float seen_brightness(float light) {
-  return light / (std::abs(light) + kMiddleGrey);
-}
 
 Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling,
                     const EmptySpace& empty) {

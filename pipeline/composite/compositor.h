@@ -4,7 +4,8 @@
 // where that is not enough.
 //
 // Most pixels are seen by one ray, whose footprint on every surface is filtered. Pixels that hold an edge
-// (see edge_finder.h) get sixteen rays, and as many as the shot allows when those leave too much to chance.
+// (see edge_finder.h) get sixteen rays, and as many as the shot allows when those leave too much to chance
+// (see edge_pixel.h).
 // Everything is linear light in the working space, premultiplied by alpha.
 
 #pragma once
@@ -25,11 +26,6 @@ struct Composite {
   std::int64_t rays = 0;     // all that were traced
   std::int64_t refined = 0;  // pixels that got more than one ray
 };
-
-inline constexpr float kMiddleGrey = 0.18F;
-
-/// Light as an eye tells it apart, from 0 to 1: steps around middle grey are seen best.
-float seen_brightness(float light);
 
 /// The picture that the tracer's camera takes; `looks` in the order of its surfaces. The tracer's plan has to
 /// call for the Jacobian. Where a ray meets nothing the picture is transparent black. `empty`: what is known

@@ -46,10 +46,12 @@ struct Field {
   }
 };
 
-/// Adds to `apart` which of `count` pixels side by side, from number `a` on, are not where their neighbours
-/// from number `b` on expect them: one of the two sees the surface and the other does not, or sees it
-/// mirrored, or is far from where the Jacobians put it, by the mean of both, so that what is left are third
-/// derivatives and whatever has no derivative.
+static_assert(PixelKind::Smooth < PixelKind::Curved && PixelKind::Curved < PixelKind::Silhouette);
+
+/// Adds to `apart`, as numbers of PixelKind, which of `count` pixels side by side, from number `a` on, are
+/// not where their neighbours from number `b` on expect them: one of the two sees the surface and the other
+/// does not, or sees it mirrored, or is far from where the Jacobians put it, by the mean of both, so that
+/// what is left are third derivatives and whatever has no derivative.
 LENSPLANE_KERNEL void find_apart(const Field& field, std::size_t a, std::size_t b, int count, Step step,
                                  double* apart) {
   const double *hit = field.hit.data(), *s = field.s.data(), *t = field.t.data();
@@ -68,7 +70,8 @@ LENSPLANE_KERNEL void find_apart(const Field& field, std::size_t a, std::size_t 
     const double least = reach[m] < reach[n] ? reach[m] : reach[n];
     const bool near = (off_s * off_s + off_t * off_t <= kMost * least) & (mirrored[m] == mirrored[n]);
     const bool same = hit[m] == hit[n];
-    apart[i] = same & near ? apart[i] : 1.0;
+    const double found = same ? (near ? 0.0 : 1.0) : 2.0;
+    apart[i] = apart[i] > found ? apart[i] : found;
   }
 }
 
@@ -84,12 +87,17 @@ bool are_reordered(std::span<const SeenPoint> a, std::span<const SeenPoint> b) {
 
 }  // namespace
 
+bool meet_alike(std::span<const SeenPoint> a, std::span<const SeenPoint> b) {
+  const auto same = [](const SeenPoint& p, const SeenPoint& q) { return p.hit == q.hit; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same) && !are_reordered(a, b);
+}
+
 CentreGrid::CentreGrid(const std::vector<Surface>& surfaces, int width, int height)
     : surfaces_(surfaces), width_(width), height_(height), points_(size() * surfaces.size()) {}
 
-std::vector<std::uint8_t> CentreGrid::edges() const {
-  std::vector<std::uint8_t> edges(size(), 0);
-  if (std::none_of(points_.begin(), points_.end(), [](const SeenPoint& p) { return p.hit; })) return edges;
+std::vector<PixelKind> CentreGrid::kinds() const {
+  std::vector<PixelKind> kinds(size(), PixelKind::Smooth);
+  if (std::none_of(points_.begin(), points_.end(), [](const SeenPoint& p) { return p.hit; })) return kinds;
   std::vector<Field> fields;
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     const Surface& surface = surfaces_[k];
@@ -105,13 +113,15 @@ std::vector<std::uint8_t> CentreGrid::edges() const {
       std::fill(apart.begin(), apart.end(), 0.0);
       for (const Field& field : fields) find_apart(field, at, next, count, step, apart.data());
       for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        const bool needs_more =
-            apart[i] != 0 || (fields.size() > 1 && are_reordered(points(at + i), points(next + i)));
-        if (needs_more) edges[at + i] = edges[next + i] = 1;
+        auto found = static_cast<PixelKind>(apart[i]);
+        if (fields.size() > 1 && are_reordered(points(at + i), points(next + i)))
+          found = PixelKind::Silhouette;
+        if (found == PixelKind::Smooth) continue;
+        for (PixelKind* kind : {&kinds[at + i], &kinds[next + i]}) *kind = std::max(*kind, found);
       }
     }
   }
-  return edges;
+  return kinds;
 }
 
 }  // namespace lensplane

@@ -20,6 +20,16 @@ namespace lensplane {
 /// taken for curved.
 inline constexpr double kMostCurved = 0.25;
 
+/// Whether two rays meet the same surfaces in the same order.
+bool meet_alike(std::span<const SeenPoint> a, std::span<const SeenPoint> b);
+
+/// What a pixel needs.
+enum class PixelKind : std::uint8_t {
+  Smooth,      // one ray
+  Curved,      // more: it is mirrored or bent between neighbours
+  Silhouette,  // more: a neighbour meets other surfaces, or in another order, so that an edge is near
+};
+
 /// What the centres of a rectangle of pixels see, a border of one pixel included.
 class CentreGrid {
  public:
@@ -44,8 +54,8 @@ class CentreGrid {
     return {&points_[at * surfaces_.size()], surfaces_.size()};
   }
 
-  /// 1 at the places of pixels that need more rays. (The border's own are not all found.)
-  std::vector<std::uint8_t> edges() const;
+  /// The kinds of the pixels, place by place. (Of the border's own not all that need more rays are found.)
+  std::vector<PixelKind> kinds() const;
 
  private:
   const std::vector<Surface>& surfaces_;

@@ -208,13 +208,6 @@ TEST(Compositor, MeansOfSeveralAddUpAndScale) {
   EXPECT_EQ(sum.refined, 9);
 }
 
-TEST(Compositor, BrightnessIsSeenAroundMiddleGrey) {
-  EXPECT_EQ(seen_brightness(0), 0);
-  EXPECT_FLOAT_EQ(seen_brightness(kMiddleGrey), 0.5F);
-  EXPECT_FLOAT_EQ(seen_brightness(9 * kMiddleGrey), 0.9F);
-  EXPECT_FLOAT_EQ(seen_brightness(-kMiddleGrey), -0.5F);
-}
-
 TEST(Locator, ShowsTheLensesWhereTheyAreAndBendsNothing) {
   Scene scene = seed_scene(100, {-1e6, 0, 0}, {0, 1e6, 0}, {1e6, -1e6, 0});
   scene.lenses.push_back({1, {0, 0, 1e9}});  // behind the camera

@@ -20,7 +20,8 @@ using Pixels = std::set<std::pair<int, int>>;
 /// What the surface number k of a pixel is seen as.
 using See = std::function<SeenPoint(int column, int row, std::size_t k)>;
 
-Pixels edges_of(const std::vector<Surface>& surfaces, const See& see) {
+/// The pixels of some kind or of those that need more.
+Pixels edges_of(const std::vector<Surface>& surfaces, const See& see, PixelKind least = PixelKind::Curved) {
   CentreGrid grid(surfaces, kWidth, kHeight);
   for (int row = -1; row <= kHeight; ++row) {
     for (int column = -1; column <= kWidth; ++column) {
@@ -29,11 +30,11 @@ Pixels edges_of(const std::vector<Surface>& surfaces, const See& see) {
       }
     }
   }
-  const std::vector<std::uint8_t> edges = grid.edges();
+  const std::vector<PixelKind> kinds = grid.kinds();
   Pixels found;
   for (int row = 0; row < kHeight; ++row) {
     for (int column = 0; column < kWidth; ++column) {
-      if (edges[grid.place(column, row)]) found.insert({column, row});
+      if (kinds[grid.place(column, row)] >= least) found.insert({column, row});
     }
   }
   return found;
@@ -84,6 +85,7 @@ TEST(EdgeFinder, FindsSilhouettesOnBothSides) {
     return [last](int x, int y, std::size_t) { return x <= last ? straight(x, y) : SeenPoint{}; };
   };
   EXPECT_EQ(edges_of(kPlate, until(3)), columns(3, 4));
+  EXPECT_EQ(edges_of(kPlate, until(3), PixelKind::Silhouette), columns(3, 4));
   EXPECT_EQ(edges_of(kPlate, until(-1)), columns(0, 0));
   EXPECT_EQ(edges_of(kPlate, until(kWidth - 1)), columns(kWidth - 1, kWidth - 1));
   const auto hole = [](int x, int y, std::size_t) { return x == 3 && y == 2 ? SeenPoint{} : straight(x, y); };
@@ -100,6 +102,7 @@ TEST(EdgeFinder, FindsFoldsByThePictureBeingMirrored) {
     return bent(kStep * (x - 3.5) * (x - 3.5), 2 * kStep * (x - 3.5), y);
   };
   EXPECT_EQ(edges_of(kPlate, fold), columns(3, 4));
+  EXPECT_EQ(edges_of(kPlate, fold, PixelKind::Silhouette), Pixels{});
 }
 
 TEST(EdgeFinder, FindsWhereTheOrderInDepthChanges) {
@@ -110,6 +113,7 @@ TEST(EdgeFinder, FindsWhereTheOrderInDepthChanges) {
     return point;
   };
   EXPECT_EQ(edges_of(two, crossing), columns(3, 4));
+  EXPECT_EQ(edges_of(two, crossing, PixelKind::Silhouette), columns(3, 4));
   const auto apart = [](int x, int y, std::size_t k) {
     SeenPoint point = straight(x, y);
     point.distance = k == 0 ? 10 + x : 100 - x;
