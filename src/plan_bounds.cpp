@@ -91,7 +91,9 @@ Passes pass_all(const Deflectors& everything, const Bundle& bundle, double unsee
   double across = 0.0;  // spread of the rays' feet, metres
   double spread = bundle.spread;
   std::size_t passage = 0;
-  for (std::size_t k = 0; k < everything.outward && passage < path.passages.size(); ++k) {
+  // Captured light may have ended on a stretch before those planes whose masses it passed.
+  const auto has_stretch = [&](std::size_t k) { return 2 * k < path.segments.size(); };
+  for (std::size_t k = 0; k < everything.outward && passage < path.passages.size() && has_stretch(k); ++k) {
     const DeflectorPlane& plane = everything.planes[k];
     const RaySegment<double>& segment = path.segments[2 * k];  // each plane adds two
     const double ahead = (plane.centre - segment.start).dot(segment.direction);
