@@ -20,11 +20,12 @@ struct Pass {
   UnsetVector<float> values;
 };
 
-/// The map of one surface: row by row from the top, the overscan included. Where `valid` is 0, s = t = 0.
+/// The map of one surface: row by row from the top, the overscan included.
 struct LensMap {
   int width = 0;
   int height = 0;
-  UnsetVector<float> s, t, valid;
+  UnsetVector<float> s, t;   // of the pixel's centre; 0 where it does not see the surface
+  UnsetVector<float> valid;  // 1 where it does, else 0. map_coverage.h makes all three say more of edges
   std::vector<Pass> passes;  // what the plan's effects call for, in the order of kEffectNames
 };
 
@@ -40,7 +41,9 @@ std::vector<LensMap> trace_maps(const Tracer& tracer);
 
 /// The same for some rows only: maps of any size can be made in pieces. Pieces that begin at multiples of
 /// TileLevels::size are traced fastest. `maps`: those of another piece that is done with, whose memory is
-/// used again: threads would have to wait for one another to get fresh memory.
-std::vector<LensMap> trace_maps(const Tracer& tracer, RowRange rows, std::vector<LensMap> maps = {});
+/// used again: threads would have to wait for one another to get fresh memory. `above`: so many rows at the
+/// beginning of the maps are left for those before `rows`.
+std::vector<LensMap> trace_maps(const Tracer& tracer, RowRange rows, std::vector<LensMap> maps = {},
+                                int above = 0);
 
 }  // namespace lensplane

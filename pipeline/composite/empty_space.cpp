@@ -12,14 +12,14 @@ EmptySpace::EmptySpace(const Camera& camera)
       height_(camera.full_height()),
       centres_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), Centre::Unknown) {}
 
-void EmptySpace::learn(const std::vector<LensMap>& maps, RowRange rows) {
-  const std::size_t first = static_cast<std::size_t>(rows.begin) * static_cast<std::size_t>(width_);
+void EmptySpace::learn(const std::vector<LensMap>& maps, std::size_t first, RowRange rows) {
+  const std::size_t at = static_cast<std::size_t>(rows.begin) * static_cast<std::size_t>(width_);
   const std::size_t count =
       static_cast<std::size_t>(rows.end - rows.begin) * static_cast<std::size_t>(width_);
-  for (std::size_t i = 0; i < count; ++i) centres_[first + i] = Centre::Empty;
+  for (std::size_t i = 0; i < count; ++i) centres_[at + i] = Centre::Empty;
   for (const LensMap& map : maps) {
     for (std::size_t i = 0; i < count; ++i) {
-      if (map.valid[i] != 0) centres_[first + i] = Centre::Seen;
+      if (map.valid[first + i] != 0) centres_[at + i] = Centre::Seen;
     }
   }
 }

@@ -21,8 +21,9 @@ class EmptySpace {
   EmptySpace() = default;  // of no camera: nothing is ever known
   explicit EmptySpace(const Camera& camera);
 
-  /// `maps`: some rows of all the surfaces that the camera sees.
-  void learn(const std::vector<LensMap>& maps, RowRange rows);
+  /// `maps`: some rows of all the surfaces that the camera sees, from sample `first` on. With soft edges they
+  /// may say of a centre that it sees something when only its neighbourhood does.
+  void learn(const std::vector<LensMap>& maps, std::size_t first, RowRange rows);
 
   /// Of a batch of pixel centres. It meets something where one of them does.
   Known known_of(const TraceBatch& batch) const;

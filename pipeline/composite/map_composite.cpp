@@ -10,6 +10,8 @@
 #include <limits>
 #include <numeric>
 
+#include "pipeline/composite/coverage_mask.h"
+
 namespace lensplane {
 namespace {
 
@@ -20,12 +22,21 @@ double distance_at(const MapLayer& layer, std::size_t i) {
   return depth < std::numeric_limits<float>::max() ? depth : std::numeric_limits<double>::infinity();
 }
 
-/// What the layer shows at pixel `i`, premultiplied by its coverage.
-Rgba seen_at(const MapLayer& layer, std::size_t i) {
-  const TextureCoordinates st{layer.map.s[i], layer.map.t[i]};
-  Rgba colour = shade(layer.surface, layer.look, st, layer.footprints[i]);
-  for (float& channel : colour) channel *= layer.map.coverage[i];
-  return colour;
+Rgba colour_at(const MapLayer& layer, const MapPlace& place) {
+  return shade(layer.surface, layer.look, place.st, place.footprint);
+}
+
+MapPlace place_at(const MapLayer& layer, std::size_t i) {
+  return {{layer.map.s[i], layer.map.t[i]}, layer.footprints[i]};
+}
+
+bool is_edge(const MapLayer& layer, std::size_t i) {
+  return layer.map.coverage[i] > 0 && layer.map.coverage[i] < 1;
+}
+
+/// Adds what shines through a surface that is `clear` as far as what lies before it lets it.
+void add(float clear, const Rgba& under, Rgba& colour) {
+  for (std::size_t c = 0; c < 4; ++c) colour[c] += clear * under[c];
 }
 
 bool is_sky(const MapLayer& layer) {
@@ -41,14 +52,45 @@ void sort_by_depth(const std::vector<MapLayer>& layers, std::size_t i, std::vect
   });
 }
 
+/// A layer as it is seen in a pixel that some layer covers in part.
+struct SeenPart {
+  Rgba colour;  // of the covered part
+  CoverageMask mask;
+};
+
+/// The layers over one another, share by share of the pixel. `order`: farthest first.
+Rgba composite_parts_at(const std::vector<MapLayer>& layers, std::size_t i,
+                        const std::vector<std::size_t>& order) {
+  const StMap& windows = layers.front().map;
+  const int column = static_cast<int>(i % static_cast<std::size_t>(windows.width));
+  const int row = static_cast<int>(i / static_cast<std::size_t>(windows.width));
+  std::vector<SeenPart> parts;
+  for (auto k = order.rbegin(); k != order.rend(); ++k) {
+    const MapLayer& layer = layers[*k];
+    const float coverage = layer.map.coverage[i];
+    if (coverage == 0) continue;
+    CoverageMask mask = coverage_mask(layer.map, column, row);
+    const Rgba colour = colour_at(layer, covered_part(place_at(layer, i), mask, coverage));
+    parts.push_back({colour, std::move(mask)});
+  }
+  Rgba colour{0, 0, 0, 0};
+  const std::size_t shares = parts.front().mask.size();
+  for (std::size_t share = 0; share < shares; ++share) {
+    Rgba seen{0, 0, 0, 0};
+    for (const SeenPart& part : parts) add((1.0F - seen[3]) * part.mask[share], part.colour, seen);
+    add(1.0F / static_cast<float>(shares), seen, colour);
+  }
+  return colour;
+}
+
 Rgba composite_at(const std::vector<MapLayer>& layers, std::size_t i, std::vector<std::size_t>& order) {
   if (layers.size() > 1) sort_by_depth(layers, i, order);
+  if (std::any_of(layers.begin(), layers.end(), [&](const MapLayer& layer) { return is_edge(layer, i); }))
+    return composite_parts_at(layers, i, order);
   Rgba colour{0, 0, 0, 0};
   for (auto k = order.rbegin(); k != order.rend() && colour[3] < 1.0F; ++k) {
-    if (layers[*k].map.coverage[i] == 0) continue;
-    const float clear = 1.0F - colour[3];
-    const Rgba under = seen_at(layers[*k], i);
-    for (std::size_t c = 0; c < 4; ++c) colour[c] += clear * under[c];
+    if (layers[*k].map.coverage[i] != 0)
+      add(1.0F - colour[3], colour_at(layers[*k], place_at(layers[*k], i)), colour);
   }
   return colour;
 }

@@ -3,8 +3,9 @@
 // Pictures from maps on disk, whoever made or edited them: no light is traced, every pixel of a map is looked
 // up once, over its footprint.
 //
-// A pixel has one (s, t) and a coverage: edges are as soft as the map's coverage, and not softer. (What is
-// traced by compositor.h has many rays in each pixel.)
+// A pixel has one (s, t) and a coverage: edges are as soft as the map's coverage, and not softer; which part
+// of the pixel that is, coverage_mask.h reads from its neighbours. (What is traced by compositor.h has many
+// rays in each pixel.)
 
 #pragma once
 

@@ -2,6 +2,7 @@
 
 #include "pipeline/composite/sample_pattern.h"
 
+#include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <cstddef>
@@ -71,6 +72,18 @@ std::array<SampleOffset, kMostSamples> make_offsets() {
 const std::array<SampleOffset, kMostSamples>& sample_offsets() {
   static const std::array<SampleOffset, kMostSamples> offsets = make_offsets();
   return offsets;
+}
+
+FilmFilter coverage_filter() {
+  FilmFilter filter;
+  filter.first = kMostSamples / 4;
+  const double wider = 1.0 / std::sqrt(1.0 - kSampleScale * kSampleScale);
+  for (const SampleOffset& offset : sample_offsets())
+    filter.points.push_back({offset.x * wider, offset.y * wider});
+  std::stable_sort(filter.points.begin(), filter.points.end(), [](const FilmOffset& a, const FilmOffset& b) {
+    return a.x * a.x + a.y * a.y > b.x * b.x + b.y * b.y;
+  });
+  return filter;
 }
 
 }  // namespace lensplane

@@ -11,6 +11,8 @@
 
 #include <array>
 
+#include "src/map_coverage.h"
+
 namespace lensplane {
 
 /// How many rays a pixel may get, and when it has enough.
@@ -42,5 +44,8 @@ struct SampleOffset {
 /// The points; so many of them as a power of four are a pattern of their own, from the beginning and after
 /// any multiple of their number.
 const std::array<SampleOffset, kMostSamples>& sample_offsets();
+
+/// The pixel filter of the same points, for the coverage of maps: they alone are as wide as the filter.
+FilmFilter coverage_filter();
 
 }  // namespace lensplane

@@ -17,13 +17,21 @@ namespace {
 
 /// What the frame rate, the working space and the plan's line are determines no number of a map, but its
 /// header says them.
-Fingerprint fingerprint_of_map(const Shot& shot, const ColourConfig& colours, const Scene& scene,
-                               const Plan& plan) {
+Fingerprint fingerprint_of_film(const Shot& shot, const ColourConfig& colours, const Scene& scene,
+                                const Plan& plan) {
   return fingerprint_of_trace(scene, plan)
       .add(describe(plan))
       .add(shot.fps.numerator)
       .add(shot.fps.denominator)
       .add(colours.interop_id(shot.colour.working.text));
+}
+
+/// A coverage of whole pixels is what maps without a choice had.
+Fingerprint fingerprint_of_map(const Shot& shot, const ColourConfig& colours, const Scene& scene,
+                               const Plan& plan) {
+  Fingerprint print = fingerprint_of_film(shot, colours, scene, plan);
+  if (shot.output.coverage == Coverage::Filtered) print.add("filtered coverage");
+  return print;
 }
 
 Fingerprint fingerprint_of_data(const Shot& shot, const ColourConfig& colours, const Scene& scene,
@@ -53,10 +61,11 @@ void add_moment(const Shot& shot, const Moment& moment, Fingerprint& print) {
   }
 }
 
-std::string fingerprint_of_picture(const Shot& shot, TextureStore& textures, int frame,
-                                   const FrameSetup& setup) {
+std::string fingerprint_of_picture(const Shot& shot, const ColourConfig& colours, TextureStore& textures,
+                                   int frame, const FrameSetup& setup) {
   Fingerprint print;
-  print.add(setup.map_header.parameters).add(shot.colour.working.text);
+  print.add(fingerprint_of_film(shot, colours, setup.scene, setup.plan).digest())
+      .add(shot.colour.working.text);
   print.add(static_cast<double>(shot.output.image.type))
       .add(static_cast<double>(shot.output.image.compression));
   for (std::size_t k = 0; k < shot.layers.size(); ++k) print.add(textures.digest(k, frame));
@@ -127,7 +136,7 @@ FrameSetup set_up_frame(const Shot& shot, const ColourConfig& colours, TextureSt
   if (!tasks.picture) return setup;
   setup.picture_header = common_header(shot, colours, frame, setup.scene, setup.plan);
   setup.picture_header.colour_interop = colours.interop_id(shot.colour.working.text);
-  setup.picture_header.parameters = fingerprint_of_picture(shot, textures, frame, setup);
+  setup.picture_header.parameters = fingerprint_of_picture(shot, colours, textures, frame, setup);
   if (tasks.from_maps) {
     setup.picture_header.plan = "from maps";
     setup.picture_header.parameters =

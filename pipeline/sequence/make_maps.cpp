@@ -6,42 +6,44 @@
 #include <iterator>
 #include <memory>
 
+#include "pipeline/composite/sample_pattern.h"
 #include "pipeline/image/exr_writer.h"
 #include "pipeline/sequence/output_paths.h"
 #include "pipeline/shot/shot_scene.h"
-#include "src/lens_map.h"
+#include "src/map_bands.h"
 
 namespace lensplane {
 namespace {
 
 constexpr ExrFormat kFormat = {PixelType::Float, ExrCompression::Zip};
 
-std::vector<ExrChannel> map_channels(const LensMap& map) {
-  return {{"R", map.s.data()}, {"G", map.t.data()}, {"B", map.valid.data()}};
+/// The channels of a map from sample `first` on.
+std::vector<ExrChannel> map_channels(const LensMap& map, std::size_t first) {
+  return {{"R", &map.s[first]}, {"G", &map.t[first]}, {"B", &map.valid[first]}};
 }
 
-std::vector<ExrChannel> data_channels(const LensMap& map) {
+std::vector<ExrChannel> data_channels(const LensMap& map, std::size_t first) {
   std::vector<ExrChannel> channels;
-  for (const Pass& pass : map.passes) channels.push_back({std::string(pass.channel), pass.values.data()});
+  for (const Pass& pass : map.passes) channels.push_back({std::string(pass.channel), &pass.values[first]});
   return channels;
 }
 
 /// A file in the making.
 struct LayerFile {
   std::size_t surface;  // of the maps that are traced
-  std::vector<ExrChannel> (*channels)(const LensMap&);
+  std::vector<ExrChannel> (*channels)(const LensMap&, std::size_t first);
   std::filesystem::path path;
   const ExrHeader* header;
   std::unique_ptr<ExrFile> file = nullptr;  // opened with the first rows: they say which channels there are
 
-  void write(const std::vector<LensMap>& maps, const ExrWindow& window) {
-    const std::vector<ExrChannel> samples = channels(maps[surface]);
+  void write(const MapBands& bands, RowRange rows, const ExrWindow& window) {
+    const std::vector<ExrChannel> samples = channels(bands.maps()[surface], bands.first_sample());
     if (!file) {
       std::vector<std::string> names;
       for (const ExrChannel& channel : samples) names.push_back(channel.name);
       file = std::make_unique<ExrFile>(path, window, names, kFormat, *header);
     }
-    file->write(samples, maps[surface].height);
+    file->write(samples, rows.end - rows.begin);
   }
 };
 
@@ -69,17 +71,18 @@ std::vector<LayerFile> files_of(const Shot& shot, int frame, const FrameSetup& s
   return files;
 }
 
-std::size_t bytes_of(const std::vector<LensMap>& maps) {
+std::size_t bytes_per_row(const std::vector<LensMap>& maps) {
   std::size_t bytes = 0;
-  for (const LensMap& map : maps) bytes += (3 + map.passes.size()) * map.s.size() * sizeof(float);
+  for (const LensMap& map : maps)
+    bytes += (3 + map.passes.size()) * static_cast<std::size_t>(map.width) * sizeof(float);
   return bytes;
 }
 
 /// Whole rows of tiles that fit into a band, given what a row of pixels takes.
-int rows_per_band(std::size_t bytes_per_row) {
+int rows_per_band(std::size_t bytes_of_row) {
   constexpr int kTile = TileLevels{}.size;
   constexpr std::size_t kMost = 1024;  // rows of tiles
-  return kTile * static_cast<int>(std::clamp<std::size_t>(kBandBytes / (kTile * bytes_per_row), 1, kMost));
+  return kTile * static_cast<int>(std::clamp<std::size_t>(kBandBytes / (kTile * bytes_of_row), 1, kMost));
 }
 
 }  // namespace
@@ -99,24 +102,24 @@ EmptySpace make_maps(const Shot& shot, int frame, const FrameSetup& setup, Frame
   PhaseCost& writing = report[Phase::Write];
   const int height = camera.full_height();
   int band = TileLevels{}.size;  // one row of tiles, which says how many fit into a band
-  std::vector<LensMap> maps;
+  MapBands bands(
+      tracer, shot.output.coverage == Coverage::Filtered ? std::optional(coverage_filter()) : std::nullopt);
   const bool all = setup.data.empty() && wanted.surfaces.size() == setup.scene.surfaces.size();
   EmptySpace empty = all ? EmptySpace(camera) : EmptySpace();
   for (int row = 0; row < height;) {
-    const RowRange rows{row, std::min(height, row + band)};
-    maps = timed(tracing.seconds, [&] { return trace_maps(tracer, rows, std::move(maps)); });
-    if (all) empty.learn(maps, rows);
+    row = std::min(height, row + band);
+    const RowRange rows = timed(tracing.seconds, [&] { return bands.trace_until(row); });
+    if (all) empty.learn(bands.maps(), bands.first_sample(), rows);
     timed(writing.seconds, [&] {
-      for (LayerFile& file : files) file.write(maps, window);
+      for (LayerFile& file : files) file.write(bands, rows, window);
     });
-    tracing.bytes += bytes_of(maps);
-    band = rows_per_band(bytes_of(maps) / static_cast<std::size_t>(rows.end - rows.begin));
-    row = rows.end;
+    tracing.bytes += bytes_per_row(bands.maps()) * static_cast<std::size_t>(rows.end - rows.begin);
+    band = rows_per_band(bytes_per_row(bands.maps()));
   }
   timed(writing.seconds, [&] {
     for (LayerFile& file : files) writing.bytes += file.file->commit();
   });
-  report.rays += static_cast<std::int64_t>(camera.full_width()) * height;
+  report.rays += bands.rays();
   return empty;
 }
 

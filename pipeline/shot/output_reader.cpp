@@ -35,7 +35,7 @@ std::vector<bool> read_chosen(const Value& value, const std::vector<std::string_
   return chosen;
 }
 
-std::vector<bool> read_maps(const Value& maps, const OutputLayers& layers) {
+std::vector<bool> read_map_layers(const Value& maps, const OutputLayers& layers) {
   for (const Value& item : maps.is_list() ? maps.items() : std::vector<Value>()) {
     const auto named = std::find(layers.names.begin(), layers.names.end(), item.text());
     if (named != layers.names.end() && !layers.have_maps[named - layers.names.begin()])
@@ -45,6 +45,20 @@ std::vector<bool> read_maps(const Value& maps, const OutputLayers& layers) {
   std::transform(chosen.begin(), chosen.end(), layers.have_maps.begin(), chosen.begin(),
                  std::logical_and<>());
   return chosen;
+}
+
+/// `maps` is the layers themselves, or a map of them and of how their edges are.
+void read_maps(const Value& maps, const OutputLayers& layers, OutputSettings& settings) {
+  if (!maps.is_map()) {
+    settings.maps = read_map_layers(maps, layers);
+    return;
+  }
+  maps.only_keys({"layers", "coverage"});
+  if (const auto chosen = maps.find("layers")) settings.maps = read_map_layers(*chosen, layers);
+  if (const auto coverage = maps.find("coverage")) {
+    constexpr std::array<std::string_view, 2> kNames = {"filtered", "binary"};
+    settings.coverage = static_cast<Coverage>(coverage->choice(kNames));
+  }
 }
 
 Effects read_data(const Value& data) {
@@ -67,7 +81,7 @@ OutputSettings read_output(const std::optional<Value>& output, const std::string
   output->only_keys({"directory", "image", "maps", "data", "review", "movie", "locator"});
   if (const auto directory = output->find("directory")) settings.directory = directory->text();
   if (const auto image = output->find("image")) settings.image = read_format(*image);
-  if (const auto maps = output->find("maps")) settings.maps = read_maps(*maps, layers);
+  if (const auto maps = output->find("maps")) read_maps(*maps, layers, settings);
   if (const auto data = output->find("data")) settings.data = read_data(*data);
   if (std::find(settings.maps.begin(), settings.maps.end(), true) == settings.maps.end()) settings.data = {};
   if (const auto review = output->find("review")) {

@@ -200,11 +200,15 @@ enum class ReviewFormat { Png, Png16, Tiff16 };
 /// Where the picture of where the sources are goes.
 enum class Locator { None, Beside };
 
+/// What the coverage of a map says: how much of a pixel sees the layer, or whether its centre does.
+enum class Coverage { Filtered, Binary };
+
 struct OutputSettings {
   std::filesystem::path directory;
   ExrFormat image;
   std::vector<bool> maps;  // per layer; never of stars
-  Effects data;            // passes of the data files, which stand beside the maps; none without maps
+  Coverage coverage = Coverage::Filtered;
+  Effects data;  // passes of the data files, which stand beside the maps; none without maps
   std::optional<ReviewFormat> review = ReviewFormat::Png;
   Locator locator = Locator::None;
 };

@@ -167,7 +167,7 @@ TEST(DataFiles, WhatLiesAtInfinityHasTheLargestDepth) {
 
 TEST(Probe, AgreesWithTheMapAndTheDataFiles) {
   const ShotFolder shot;
-  shot.map({"output.data=all"});
+  shot.map({"output.data=all", "output.maps={coverage: binary}"});
   int hits = 0;
   for (const auto& [x, y] : {std::pair{3, 5}, {60, 40}, {100, 20}, {150, 70}, {199, 89}}) {
     const Json json = Json::parse(shot.run("probe", {"-f", "1001", "--json", "-x", std::to_string(x) + ".5",

@@ -156,7 +156,7 @@ TEST(Compositor, TracesNoRayThatIsKnownToMeetNothing) {
   const std::vector<SurfaceLook> looks = {{flat(kRed)}, {flat(kBlue)}};
   const int rows = tracer.camera().full_height();
   EmptySpace empty(tracer.camera());
-  empty.learn(trace_maps(tracer.without_passes()), {0, rows});
+  empty.learn(trace_maps(tracer.without_passes()), 0, {0, rows});
   const Composite unknown = composite(tracer, looks, {}), known = composite(tracer, looks, {}, empty);
   EXPECT_EQ(known.picture.pixels, unknown.picture.pixels);
   EXPECT_EQ(known.hits, unknown.hits);
@@ -165,7 +165,7 @@ TEST(Compositor, TracesNoRayThatIsKnownToMeetNothing) {
   // It is taken at its word: of a camera that is said to see nothing only what lies just outside is traced.
   std::vector<LensMap> nothing = trace_maps(tracer.without_passes());
   for (LensMap& map : nothing) std::fill(map.valid.begin(), map.valid.end(), 0.0F);
-  empty.learn(nothing, {0, rows});
+  empty.learn(nothing, 0, {0, rows});
   EXPECT_EQ(composite(tracer, looks, {.max = 1}, empty).picture.at(78, 40), (Rgba{0, 0, 0, 0}));
 }
 

@@ -65,6 +65,49 @@ TEST(MapComposite, LightFallsOnSpheres) {
   EXPECT_EQ(seen({lit})[3], 1);
 }
 
+/// A layer of 3 x 3 pixels and one colour, whose coverage has an upright edge through the middle ones.
+MapLayer cut_layer(const Rgba& colour, double distance, float left, float middle, float right) {
+  MapLayer cut = layer(colour, distance);
+  cut.map = {{3, 3, 0, 0, 3, 3}, false, std::vector<float>(9, 0.5F), std::vector<float>(9, 0.5F), {}};
+  for (int row = 0; row < 3; ++row) cut.map.coverage.insert(cut.map.coverage.end(), {left, middle, right});
+  cut.footprints.resize(9);
+  return cut;
+}
+
+void expect_near(const Rgba& seen, const Rgba& right) {
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(seen[c], right[c], 1e-5) << c;
+}
+
+TEST(MapComposite, LayersCutByOneEdgeHideOneAnotherThere) {
+  const MapLayer near = cut_layer(kRed, 10, 0, 0.5F, 1), far = cut_layer(kGreen, 20, 0, 0.5F, 1);
+  expect_near(composite_from_maps({near, far}).at(1, 1), {0.5F, 0, 0, 0.5F});
+}
+
+TEST(MapComposite, LayersThatMeetAtAnEdgeLeaveNothingBetweenThem) {
+  const MapLayer near = cut_layer(kRed, 10, 0, 0.25F, 1), far = cut_layer(kGreen, 20, 1, 0.75F, 0);
+  expect_near(composite_from_maps({near, far}).at(1, 1), {0.25F, 0.75F, 0, 1});
+}
+
+TEST(MapComposite, EdgesThatCrossLeaveTheirProduct) {
+  MapLayer near = cut_layer(kRed, 10, 0, 0.5F, 1);
+  near.map.coverage = {0, 0, 0, 0.5F, 0.5F, 0.5F, 1, 1, 1};
+  const MapLayer far = cut_layer(kGreen, 20, 0, 0.5F, 1);
+  expect_near(composite_from_maps({near, far}).at(1, 1), {0.5F, 0.25F, 0, 0.75F});
+}
+
+/// At an edge the middle of the part that is covered is seen, not that of the pixel.
+TEST(MapComposite, TheCoveredPartIsSeenAtAnEdge) {
+  MapLayer ramp = cut_layer(kRed, 10, 0, 0.6F, 1);
+  Picture picture{16, 1, 0, 0, 16, 1, {}};
+  for (int i = 0; i < 16; ++i) picture.pixels.push_back({static_cast<float>(i) / 16, 0, 0, 1});
+  ramp.look.texture = std::make_shared<const Texture>(picture, Wrap::Clamp);
+  for (Footprint& footprint : ramp.footprints) footprint = {.ds_dx = 0.1, .dt_dy = -0.1};
+  // The Gaussian's part to the right of where 0.6 of it lie: its middle is 0.29 pixels away.
+  const Rgba seen = composite_from_maps({ramp}).at(1, 1);
+  EXPECT_NEAR(seen[3], 0.6, 1e-5);
+  EXPECT_NEAR(seen[0] / seen[3], 0.5 - 0.5 / 16 + 0.1 * 0.29, 0.003);
+}
+
 TEST(MapComposite, ThePictureHasTheMapsWindows) {
   MapLayer wide = layer(kRed, 10);
   wide.map = {2,

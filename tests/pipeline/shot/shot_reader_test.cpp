@@ -100,6 +100,18 @@ TEST(ShotReader, ReadsWhatTheExampleLeavesOut) {
   EXPECT_EQ(shot.colour.view.text, "Raw");
 }
 
+TEST(ShotReader, MapsMayChooseTheirCoverage) {
+  EXPECT_EQ(example_shot().output.coverage, Coverage::Filtered);
+  EXPECT_EQ(example_shot({"output.maps=[earth]"}).output.coverage, Coverage::Filtered);
+  const Shot binary = example_shot({"output.maps={coverage: binary}"});
+  EXPECT_EQ(binary.output.coverage, Coverage::Binary);
+  EXPECT_EQ(binary.output.maps, (std::vector<bool>{true, true}));
+  const Shot some = example_shot({"output.maps={layers: [background], coverage: filtered}"});
+  EXPECT_EQ(some.output.coverage, Coverage::Filtered);
+  EXPECT_EQ(some.output.maps, (std::vector<bool>{false, true}));
+  EXPECT_EQ(example_shot({"output.maps={layers: none}"}).output.maps, (std::vector<bool>{false, false}));
+}
+
 TEST(ShotReader, DataFilesHoldWhatIsAskedForWhereThereAreMaps) {
   const auto data = [](const std::vector<std::string>& settings) {
     std::string names;
@@ -287,6 +299,10 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
       {"sampling.threshold=1.5", "more than 0 and up to 1"},
       {"camera.shutter.samples=257", "whole number from 1 to 256"},
       {"output.maps=some", "allowed: all, none"},
+      {"output.maps={coverage: soft}", "output.maps.coverage: \"soft\"; allowed: filtered, binary"},
+      {"output.maps={coverage: filtered, edge: 2}",
+       "output.maps.edge: unknown key; allowed: layers, coverage"},
+      {"output.maps={layers: [mars]}", "allowed: earth, background"},
       {"output.maps=[mars]", "allowed: earth, background"},
       {"output.data=[colour]", "allowed: jacobian, magnification, delay, direction, shadow, bends, depth"},
       {"output.data=some", "allowed: all, none"},
