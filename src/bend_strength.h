@@ -83,6 +83,28 @@ LENSPLANE_ALWAYS_INLINE inline Strength<Number> full_strength(double m, const Nu
   }
 }
 
+/// b^2 from what measured() keeps of it.
+template <Law law, Reach reach, class Number>
+LENSPLANE_ALWAYS_INLINE inline Number squared(const Number& measure) {
+  if constexpr (law == Law::Weak)
+    return reciprocal(measure);
+  else if constexpr (law == Law::Exact && reach == Reach::Near)
+    return measure * measure;
+  else
+    return reciprocal(measure * measure);
+}
+
+/// `strength` with what the mass's company adds to it.
+template <class Number>
+LENSPLANE_ALWAYS_INLINE inline Strength<Number> with_company(const Company& company, const Number& b2,
+                                                             const Strength<Number>& strength) {
+  const Number gain = gain_in(company, b2);
+  const Number more = 1.0 + gain;
+  const double falls = value_of(gain) * (kCompanyReach / (company.spread2 + kCompanyReach * value_of(b2)));
+  return {strength.per_b * more, strength.arc * more,
+          strength.steepness * value_of(more) + value_of(strength.arc) * falls};
+}
+
 /// The strength that is left at the finite distance of the camera; bend_by() of planes_march.h without
 /// branches. `along` is the distance from the camera to the closest approach.
 template <Law law, Reach reach, class Number>
@@ -134,10 +156,13 @@ template <Reach reach>
 struct Limits {
   Limits(const Deflector& deflector, bool finite) : m(deflector.m), n(deflector.index) {
     const double distance = length(deflector.position);
-    const double b = reach == Reach::Far ? kFarImpact * m : 0.0;
+    // A bend that grows by its company is as far away as one of as much more mass.
+    const double more = 1.0 + gain_in(deflector.company, 0.0);
+    const double b = reach == Reach::Far ? kFarImpact * m * more : 0.0;
     least_b2 = std::max(b / n * (b / n), kLeastB2);
     least_b2_behind = kLeastB2;
-    const bool near_camera = finite && distance < (reach == Reach::Far ? kFarImpact : kPhotonSphere) * m;
+    const bool near_camera =
+        finite && distance < (reach == Reach::Far ? kFarImpact * more : kPhotonSphere) * m;
     if (near_camera || !(distance < kFarthest)) {
       least_b2 = least_b2_behind = std::numeric_limits<double>::infinity();  // no ray fits
       capture_ratio = 0.0;

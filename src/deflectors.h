@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "src/company.h"
 #include "src/deflection.h"
 #include "src/fermat.h"
 #include "src/lens_planes.h"
@@ -23,6 +24,7 @@ struct Deflector {
   Law law;
   std::size_t lens = 0;  // its number in the scene
   double index = 1;      // Fermat index n of its metric at the camera; 1 without finite distance
+  Company company = {};  // of the exact law: what the other masses add; see in_company()
 };
 
 /// Deflectors that bend a ray together: their bends are added up, so that their order has no influence.

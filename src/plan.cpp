@@ -26,16 +26,20 @@ TileLevels tiles_of(const Camera& camera) {
   return tiles;
 }
 
-/// The deflectors of `all` that `keeps(lens)` keeps, each with the law that `law(lens)` gives it.
-template <class Keeps, class LawOf>
-Deflectors recipe(const Deflectors& all, Keeps keeps, LawOf law_of) {
+/// The deflectors of `all` that `keeps(lens)` keeps, each with the law that `law(lens)` gives it, in company
+/// where `company(lens)` says so.
+template <class Keeps, class LawOf, class CompanyOf>
+Deflectors recipe(const Deflectors& all, Keeps keeps, LawOf law_of, CompanyOf company_of) {
   Deflectors result = all;
   const auto thin_out = [&](std::size_t begin, std::size_t end) {
     std::vector<DeflectorPlane> planes;
     for (std::size_t k = begin; k < end; ++k) {
       DeflectorPlane plane = all.planes[k];
       std::erase_if(plane.deflectors, [&](const Deflector& d) { return !keeps(d.lens); });
-      for (Deflector& d : plane.deflectors) d.law = law_of(d.lens);
+      for (Deflector& d : plane.deflectors) {
+        d.law = law_of(d.lens);
+        if (!company_of(d.lens)) d.company = {};
+      }
       if (!plane.deflectors.empty()) planes.push_back(std::move(plane));
     }
     return planes;
@@ -76,8 +80,11 @@ void choose_laws(const FilmBounds& bounds, double budget_px, std::vector<LensPla
     lens.law = bound.weak_px <= part           ? Law::Weak
                : bound.second_order_px <= part ? Law::SecondOrder
                                                : Law::Exact;
-    lens.bound_px = lens.law == Law::Weak ? bound.weak_px : bound.second_order_px;
-    if (lens.law == Law::Exact) lens.bound_px = 0.0;
+    lens.company = lens.law == Law::Exact && bound.gain_px > part;
+    lens.bound_px = lens.law == Law::Weak          ? bound.weak_px
+                    : lens.law == Law::SecondOrder ? bound.second_order_px
+                    : lens.company                 ? 0.0
+                                                   : bound.gain_px;
   }
 }
 
@@ -90,6 +97,12 @@ void choose_levels(const FilmBounds& bounds, double budget_px, TileLevels& tiles
                           : tile.second_order_px <= budget_px ? 1
                                                               : 2);
   }
+}
+
+std::size_t count_masses(const Deflectors& deflectors) {
+  std::size_t count = 0;
+  for (const DeflectorPlane& plane : deflectors.planes) count += plane.deflectors.size();
+  return count;
 }
 
 bool any_wild(const FilmBounds& bounds) {
@@ -111,11 +124,29 @@ EffectPlan finite_distance_plan(const TraceSettings& settings, bool flat, const 
                               : "it would move no pixel by more than " + in_pixels(effect.bound_px);
   }
   effect.share = effect.on ? 1.0 : 0.0;
+  if (effect.on) effect.bound_px = 0.0;
   // Only with the law left open it is on there nevertheless.
   if (any_wild(bounds) && !effect.on && (settings.law || settings.finite_distance == Choice::Off)) {
     effect.bound_px = kInfinity;
     effect.reason += "; near masses there is no limit";
   }
+  return effect;
+}
+
+/// What masses do together: of that the bends in company (company.h) leave something out everywhere. Near
+/// masses nothing is known of how much.
+EffectPlan joint_plan(const TraceSettings& settings, std::size_t masses, const FilmBounds& bounds) {
+  EffectPlan effect{std::string(kJointEffect), masses > 1, 0.0, "there is one mass at most", 0.0};
+  if (!effect.on) return effect;
+  const bool by_law = settings.law.value_or(Law::Exact) == Law::Exact;
+  double gain = 0.0;
+  for (const TileBound& tile : bounds.tiles) {
+    effect.bound_px = std::max(effect.bound_px, tile.joint_px);
+    gain = std::max(gain, tile.gain_px);
+  }
+  effect.share = 1.0;
+  effect.reason = by_law ? "each mass bends as the others let it: by up to " + in_pixels(gain) + " more"
+                         : "the law is given, and knows each mass for itself";
   return effect;
 }
 
@@ -133,12 +164,13 @@ std::vector<EffectPlan> called_for(const Effects& effects) {
 void plan_as_told(const Scene& scene, const TraceSettings& settings, const EffectPlan& finite,
                   const FilmBounds& bounds, Plan& plan) {
   const Law law = *settings.law;
-  plan.recipes = {deflectors_of(scene, law, finite.on)};
+  plan.recipes = {in_company(deflectors_of(scene, law, finite.on))};
   for (std::size_t i = 0; i < plan.lenses.size(); ++i) {
     LensPlan& lens = plan.lenses[i];
     const LensBound& bound = bounds.lenses[i];
     lens.law = law;
     lens.bound_px = law == Law::Weak ? bound.weak_px : law == Law::SecondOrder ? bound.second_order_px : 0.0;
+    lens.company = law == Law::Exact && bound.gain_px > 0.0;
     if (law != Law::Exact && bound.wild) lens.bound_px = kInfinity;
     lens.reason = "the law is given";
     plan.bound_px += lens.bound_px;
@@ -154,6 +186,7 @@ void say_all_exact(const Scene& scene, std::vector<LensPlan>& lenses) {
     if (scene.lenses[lens.lens].m == 0.0) continue;
     lens.culled = false;
     lens.law = Law::Exact;
+    lens.company = scene.lenses.size() > 1;
     lens.moves_px = kInfinity;
     lens.bound_px = 0.0;
   }
@@ -173,14 +206,16 @@ void plan_within_tolerance(const Scene& scene, const TraceSettings& settings, co
   choose_laws(bounds, share, plan.lenses);
   plan.tiles = tiles_of(scene.camera);
   choose_levels(bounds, share, plan.tiles);
-  const Deflectors all = finite.on ? everything : deflectors_of(scene, Law::Exact, false);
+  const Deflectors all = finite.on ? everything : in_company(deflectors_of(scene, Law::Exact, false));
   const auto keeps = [&](std::size_t lens) { return !plan.lenses[lens].culled; };
   const auto at_most = [&](Law most) {
     return [&plan, most](std::size_t lens) { return std::min(plan.lenses[lens].law, most); };
   };
   const bool given_off = settings.finite_distance == Choice::Off;
-  plan.recipes = {recipe(all, keeps, at_most(Law::Weak)), recipe(all, keeps, at_most(Law::SecondOrder)),
-                  recipe(all, keeps, at_most(Law::Exact)), given_off ? all : everything};
+  const auto company = [&](std::size_t lens) { return plan.lenses[lens].company; };
+  plan.recipes = {recipe(all, keeps, at_most(Law::Weak), company),
+                  recipe(all, keeps, at_most(Law::SecondOrder), company),
+                  recipe(all, keeps, at_most(Law::Exact), company), given_off ? all : everything};
   const double near_masses = recipe_shares(plan, scene.camera).back();
   plan.near_masses = near_masses;
   if (near_masses == 1.0) say_all_exact(scene, plan.lenses);
@@ -206,7 +241,7 @@ void plan_within_tolerance(const Scene& scene, const TraceSettings& settings, co
 }
 
 void plan_planes(const Scene& scene, const TraceSettings& settings, Plan& plan) {
-  const Deflectors everything = deflectors_of(scene, Law::Exact, true);
+  const Deflectors everything = in_company(deflectors_of(scene, Law::Exact, true));
   const FilmBounds bounds = bounds_of(scene, everything, tiles_of(scene.camera));
   const bool flat = scene.camera.projection == Projection::Perspective;
   for (std::size_t i = 0; i < scene.lenses.size(); ++i) {
@@ -214,12 +249,14 @@ void plan_planes(const Scene& scene, const TraceSettings& settings, Plan& plan) 
     plan.lenses.push_back({i, false, Law::Weak, moves, 0.0, "it has no mass"});
   }
   const EffectPlan finite = finite_distance_plan(settings, flat, bounds);
-  plan.choices.insert(plan.choices.begin(), finite);
+  const EffectPlan joint = joint_plan(settings, count_masses(everything), bounds);
+  plan.choices.insert(plan.choices.begin(), {finite, joint});
   if (settings.law) {
     plan_as_told(scene, settings, finite, bounds, plan);
   } else {
     plan_within_tolerance(scene, settings, finite, everything, bounds, plan);
   }
+  plan.bound_px += joint.bound_px;
 }
 
 }  // namespace

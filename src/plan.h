@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/batch.h"
@@ -40,13 +41,17 @@ struct LensPlan {
   double moves_px = 0;   // how far it moves what is seen, at most, over the film; infinite near its shadow
   double bound_px = 0;   // how much of that is left out, at most
   std::string reason;
+  bool company = false;  // of the exact law: what the other masses add to it counts (company.h)
 };
+
+/// The name of what masses do together, among the effects.
+inline constexpr std::string_view kJointEffect = "masses together";
 
 /// What becomes of one effect.
 struct EffectPlan {
   std::string name;
   bool on = false;
-  double bound_px = 0;  // how far it would move what is seen, at most, if it is off
+  double bound_px = 0;  // how far what is left out of it would move what is seen, at most
   std::string reason;
   double share = 0;  // of the film where it is simulated; of the finite distance perhaps only near masses
 };
@@ -68,7 +73,8 @@ struct Plan {
   double geodesic_tolerance = 1e-9;  // radians
 
   std::vector<LensPlan> lenses;     // by `planes`, in the order of the scene
-  std::vector<EffectPlan> choices;  // every effect; by `planes` first the finite distance
+  std::vector<EffectPlan> choices;  // every effect; by `planes` first the finite distance, then what masses
+                                    // do together
   double near_masses = 0;  // the share of the film whose tiles are wild (plan_bounds.h): nothing is left out
   double bound_px = 0;     // all that is left out, at most
 };

@@ -242,14 +242,20 @@ TileBound bound_tile(const Stage& stage, const Deflectors& everything, const Bun
       LensBound& lens = lenses[pass.deflector->lens];
       // A bend that is off by an angle also displaces the ray by at most b times it.
       const double grown = px * (growth.per_angle + growth.per_metre * pass.most_b);
-      const double weak = grown * weak_law_error(m, pass.least_b);
-      const double second_order = grown * second_order_law_error(m, pass.least_b);
+      const Company& company = pass.deflector->company;
+      const double alpha = exact_law(m, pass.least_b).alpha;
+      const double gain = grown * alpha * gain_in(company, pass.least_b * pass.least_b);
+      const double weak = grown * weak_law_error(m, pass.least_b) + gain;
+      const double second_order = grown * second_order_law_error(m, pass.least_b) + gain;
       const FiniteBound finite = finite_bound(pass);
       tile.weak_px += weak;
       tile.second_order_px += second_order;
-      raise(lens.moves_px, grown * exact_law(m, pass.least_b).alpha);
+      tile.gain_px += gain;
+      tile.joint_px += kCompanyError * grown * company_bend(m, company, pass.least_b);
+      raise(lens.moves_px, grown * alpha);
       raise(lens.weak_px, weak);
       raise(lens.second_order_px, second_order);
+      raise(lens.gain_px, gain);
       raise(lens.finite_px, px * (growth.per_angle * finite.angle + growth.per_metre * finite.shift +
                                   body_bound(stage.bodies, pass)));
     }
@@ -263,6 +269,7 @@ void merge(const std::vector<LensBound>& from, std::vector<LensBound>& into) {
     raise(into[i].moves_px, from[i].moves_px);
     raise(into[i].weak_px, from[i].weak_px);
     raise(into[i].second_order_px, from[i].second_order_px);
+    raise(into[i].gain_px, from[i].gain_px);
     raise(into[i].finite_px, from[i].finite_px);
     into[i].wild = into[i].wild || from[i].wild;
   }

@@ -39,6 +39,8 @@ struct TileBound {
   bool wild = false;
   double weak_px = 0;          // all laws weak
   double second_order_px = 0;  // all laws of second order
+  double gain_px = 0;          // every mass by itself (company.h)
+  double joint_px = 0;         // what masses do together and no law knows
 };
 
 /// What leaving out one lens, or a part of it, would move at most on all tiles that are not wild, in pixels.
@@ -46,6 +48,7 @@ struct LensBound {
   double moves_px = 0;         // left out as a whole
   double weak_px = 0;          // by the weak law
   double second_order_px = 0;  // by the second order
+  double gain_px = 0;          // by the exact law of a mass by itself (company.h)
   double finite_px = 0;        // without the finite distances of camera and surfaces
   bool wild = false;           // makes a tile wild
 };

@@ -81,7 +81,8 @@ std::string reason_of(const LensPlan& lens, const LensBound& bound, double near_
     return "the weak law would be up to " + in_pixels(bound.weak_px) + " off, this one " +
            in_pixels(bound.second_order_px) + near;
   }
-  return "the second order would be up to " + in_pixels(bound.second_order_px) + " off";
+  return "the second order would be up to " + in_pixels(bound.second_order_px) + " off" +
+         (lens.company ? ", a mass by itself " + in_pixels(bound.gain_px) : "");
 }
 
 std::string reason_near_masses(double near_masses, double elsewhere_px) {

@@ -24,9 +24,16 @@ struct Approach {
   Lane<Number> measure;       // b^2 with finite distance, otherwise what the law needs of it
 };
 
+/// How a kernel's mass bends.
+struct Bending {
+  Law law;
+  bool company;  // with what other masses add
+};
+
 /// A plane with one mass: the line turns about it. Rays have to stay below `limit_z` in direction.
-template <class Number, Law law, Reach reach, bool finite, bool path>
+template <class Number, Bending bending, Reach reach, bool finite, bool path>
 LENSPLANE_KERNEL void turn_about(const Deflector& deflector, double limit_z, LineBatch<Number>& rays) {
+  constexpr Law law = bending.law;
   Approach<Number> to;
   const Vector<Number> mass = constant<Number>(deflector.position);
   const Limits<reach> limits(deflector, finite);
@@ -56,6 +63,10 @@ LENSPLANE_KERNEL void turn_about(const Deflector& deflector, double limit_z, Lin
       strength = finite_strength<law, reach>(deflector, measure, dot(mass, direction));
     else
       strength = full_strength<law, reach>(deflector.m, measure);
+    if constexpr (bending.company) {
+      const Number b2 = finite ? measure : squared<law, reach>(measure);
+      strength = with_company(deflector.company, b2, strength);
+    }
     const Turn<Number> r = turn_within<reach>(strength.per_b * strength.arc);
     const Vector<Number> across_out =
         difference(scaled(across, r.cosine), scaled(direction, strength.arc * r.sine));
@@ -90,9 +101,10 @@ LENSPLANE_ALWAYS_INLINE inline Tangent tangent_at(const Vec3& start, const Vec3&
 /// turn_about() for Dual numbers, with the derivatives by hand: a change of the ray within the plane of the
 /// bend changes b, and with it alpha; a change across it turns with that plane. (The same as by the rules of
 /// Dual numbers, in half the operations.)
-template <Law law, Reach reach, bool path>
+template <Bending bending, Reach reach, bool path>
 LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, double limit_z,
                                                LineBatch<Dual>& rays) {
+  constexpr Law law = bending.law;
   VectorLane<double> across_of;
   Lane<double> along_of, per_b2_of, measure_of;
   const Vec3 mass = deflector.position;
@@ -119,7 +131,9 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
     const Vec3 d(rays.direction.x.v[i], rays.direction.y.v[i], rays.direction.z.v[i]);
     const Vec3 normal(d.y * across.z - d.z * across.y, d.z * across.x - d.x * across.z,
                       d.x * across.y - d.y * across.x);
-    const Strength<double> strength = full_strength<law, reach>(deflector.m, measure_of.v[i]);
+    Strength<double> strength = full_strength<law, reach>(deflector.m, measure_of.v[i]);
+    if constexpr (bending.company)
+      strength = with_company(deflector.company, squared<law, reach>(measure_of.v[i]), strength);
     const Turn<double> r = turn_within<reach>(strength.per_b * strength.arc);
     const double b_sine = strength.arc * r.sine;  // b sin(alpha)
     const double sine_per_b = strength.per_b * r.sine;
@@ -178,9 +192,10 @@ LENSPLANE_KERNEL void begin_sums(const Vec3& centre, const LineBatch<Number>& ra
   }
 }
 
-template <class Number, Law law, Reach reach, bool finite, bool path>
+template <class Number, Bending bending, Reach reach, bool finite, bool path>
 LENSPLANE_KERNEL void add_to_sums(const Deflector& deflector, double limit_z, LineBatch<Number>& rays,
                                   SumsBatch<Number>& sums) {
+  constexpr Law law = bending.law;
   const Vector<Number> mass = constant<Number>(deflector.position);
   const Limits<reach> limits(deflector, finite);
 #pragma GCC ivdep
@@ -200,6 +215,7 @@ LENSPLANE_KERNEL void add_to_sums(const Deflector& deflector, double limit_z, Li
     } else {
       strength = full_strength<law, reach>(deflector.m, measured<law, reach>(b2));
     }
+    if constexpr (bending.company) strength = with_company(deflector.company, b2, strength);
     const Vector<Number> bend = scaled(across, strength.per_b);
     sums.bend.set(i, sum(sums.bend.get(i), bend));
     sums.kink.set(i, sum(sums.kink.get(i), scaled(bend, along)));
@@ -258,33 +274,39 @@ LENSPLANE_KERNEL void add_shapiro(const Deflector& deflector, LineBatch<Number>&
   }
 }
 
-template <class Number, Law law, Reach reach, bool finite, bool path>
+template <class Number, Bending bending, Reach reach, bool finite, bool path>
 void turn_about_one(const Deflector& deflector, double limit_z, LineBatch<Number>& rays) {
   if constexpr (std::is_same_v<Number, Dual> && !finite) {
-    turn_about_with_tangents<law, reach, path>(deflector, limit_z, rays);
+    turn_about_with_tangents<bending, reach, path>(deflector, limit_z, rays);
   } else {
-    turn_about<Number, law, reach, finite, path>(deflector, limit_z, rays);
+    turn_about<Number, bending, reach, finite, path>(deflector, limit_z, rays);
   }
 }
 
 template <class Number, Reach reach, bool finite, bool path>
 void pass_with(const DeflectorPlane& plane, double limit_z, LineBatch<Number>& rays) {
-  const auto by_law = [](Law law, auto weak, auto second_order, auto exact) {
-    return law == Law::Weak ? weak : law == Law::SecondOrder ? second_order : exact;
+  const auto by_bending = [](const Deflector& d, auto weak, auto second_order, auto exact, auto in_company) {
+    if (d.law == Law::Weak) return weak;
+    if (d.law == Law::SecondOrder) return second_order;
+    return d.company.weight == 0.0 ? exact : in_company;
   };
+  constexpr Bending kWeak{Law::Weak, false}, kSecondOrder{Law::SecondOrder, false};
+  constexpr Bending kExact{Law::Exact, false}, kInCompany{Law::Exact, true};
   if (plane.deflectors.size() == 1) {
     const Deflector& deflector = plane.deflectors.front();
-    by_law(deflector.law, turn_about_one<Number, Law::Weak, reach, finite, path>,
-           turn_about_one<Number, Law::SecondOrder, reach, finite, path>,
-           turn_about_one<Number, Law::Exact, reach, finite, path>)(deflector, limit_z, rays);
+    by_bending(deflector, turn_about_one<Number, kWeak, reach, finite, path>,
+               turn_about_one<Number, kSecondOrder, reach, finite, path>,
+               turn_about_one<Number, kExact, reach, finite, path>,
+               turn_about_one<Number, kInCompany, reach, finite, path>)(deflector, limit_z, rays);
     return;
   }
   SumsBatch<Number> sums;
   begin_sums(plane.centre, rays, sums);
   for (const Deflector& deflector : plane.deflectors) {
-    by_law(deflector.law, add_to_sums<Number, Law::Weak, reach, finite, path>,
-           add_to_sums<Number, Law::SecondOrder, reach, finite, path>,
-           add_to_sums<Number, Law::Exact, reach, finite, path>)(deflector, limit_z, rays, sums);
+    by_bending(deflector, add_to_sums<Number, kWeak, reach, finite, path>,
+               add_to_sums<Number, kSecondOrder, reach, finite, path>,
+               add_to_sums<Number, kExact, reach, finite, path>,
+               add_to_sums<Number, kInCompany, reach, finite, path>)(deflector, limit_z, rays, sums);
   }
   turn_by_sums<Number, reach, finite, path>(sums, rays);
 }

@@ -233,6 +233,14 @@ Bend<Number> full_bend(const Deflector& deflector, const Number& b) {
   return {alpha, alpha / b};
 }
 
+/// A bend with what the mass's company adds to it.
+template <class Number>
+Bend<Number> with_company(const Deflector& deflector, const Number& b, const Bend<Number>& bend) {
+  if (deflector.law != Law::Exact || deflector.company.weight == 0.0) return bend;
+  const Number gain = gain_in(deflector.company, b * b);
+  return {bend.alpha + bend.alpha * gain, bend.per_b + bend.per_b * gain};
+}
+
 }  // namespace
 
 template <class Number>
@@ -243,7 +251,7 @@ std::optional<Bend<Number>> bend_by(const Deflector& deflector, const Number& b,
   const double b_far = deflector.index * value_of(b);
   if (!along) {
     if (value_of(b) <= b_c) return std::nullopt;  // as far away: no camera near
-    return full_bend(deflector, b);
+    return with_company(deflector, b, full_bend(deflector, b));
   }
   const bool ahead = value_of(*along) >= 0.0;
   const Number r = length(Vector<Number>(*along, b, Number(0.0)));  // from the mass to the camera
@@ -258,7 +266,9 @@ std::optional<Bend<Number>> bend_by(const Deflector& deflector, const Number& b,
   const Number excess = full_bend(deflector, nearest).alpha - (4.0 * m) / nearest;
   const Number excess_share = 0.25 * excess * (2.0 - cosine) * per_b * b;  // h(cos R), but for a factor
   const double weak = 2.0 * m / deflector.index;
-  return Bend<Number>{weak * per_b + excess_share * per_b * b, weak * per_b2 + excess_share * per_b};
+  return with_company(
+      deflector, b,
+      Bend<Number>{weak * per_b + excess_share * per_b * b, weak * per_b2 + excess_share * per_b});
 }
 
 std::optional<Capture> capture_by(const DeflectorPlane& plane, bool finite_distance, const Vec3& start,

@@ -80,9 +80,8 @@ std::string effect_table(const Plan& plan) {
   if (plan.choices.empty()) return "";
   Rows rows = {{"effect", "", "left out at most", "why"}};
   for (const EffectPlan& effect : plan.choices) {
-    const bool leaves_out = !effect.on && effect.bound_px > 0;
-    rows.push_back(
-        {effect.name, state_of(effect), leaves_out ? pixels(effect.bound_px) : "-", effect.reason});
+    const std::string left_out = effect.bound_px > 0 ? pixels(effect.bound_px) : "-";
+    rows.push_back({effect.name, state_of(effect), left_out, effect.reason});
   }
   return "\n" + text_from_rows(rows);
 }

@@ -83,6 +83,7 @@ void price_traces(const Shot& shot, int frame, const StudyEffort& effort, const 
     hooks.doing("prices: " + effect.name);
     const auto entry = std::find_if(kEffectNames.begin(), kEffectNames.end(),
                                     [&](const EffectName& e) { return e.name == effect.name; });
+    if (effect.name == kJointEffect) continue;  // it comes with the exact law
     if (entry == kEffectNames.end()) {
       const bool can_be_off = scene.camera.projection == Projection::Perspective;
       if (can_be_off) study.prices.push_back(finite_distance(scene, settings, effect, plain_s, effort));

@@ -88,12 +88,14 @@ void compare(const Scene& scene, const Deflectors& deflectors, const PlanesWork&
 }
 
 /// Compares kernels and reference in 30 scenes, from weak bends to strong ones.
-Tally tally_of(std::mt19937& random, Projection projection, Law law, bool finite, const PlanesWork& work) {
+Tally tally_of(std::mt19937& random, Projection projection, Law law, bool finite, bool company,
+               const PlanesWork& work) {
   Tally tally;
   for (int trial = 0; trial < 30; ++trial) {
     const double m = std::pow(10.0, -5 + 4.5 * trial / 30);
     const Scene scene = random_scene(random, projection, trial % 4 / 2 * 2 + 1, trial % 2 * 2 + 1, m);
-    const Deflectors deflectors = deflectors_of(scene, law, finite);
+    const Deflectors alone = deflectors_of(scene, law, finite);
+    const Deflectors deflectors = company ? in_company(alone) : alone;
     Film film;
     random_film(random, scene.camera, film);
     compare<double>(scene, deflectors, work, film, tally);
@@ -108,12 +110,14 @@ TEST(PlanesBatch, AgreesWithTheReferenceInEveryKernel) {
   for (const Projection projection : {Projection::Perspective, Projection::LatLong}) {
     for (const LawEntry& law : kLaws) {
       for (const bool finite : {false, true}) {
-        const Tally far = tally_of(random, projection, law.law, finite, kFarWork);
-        EXPECT_GT(far.regular, 0.9 * 30 * 2 * kBatchSize);
-        EXPECT_EQ(far.captured, 0);
-        const Tally near = tally_of(random, projection, law.law, finite, kNearWork);
-        EXPECT_GT(near.regular, 0.99 * 30 * 2 * kBatchSize);
-        captured += near.captured;
+        for (const bool company : {false, true}) {
+          const Tally far = tally_of(random, projection, law.law, finite, company, kFarWork);
+          EXPECT_GT(far.regular, 0.9 * 30 * 2 * kBatchSize);
+          EXPECT_EQ(far.captured, 0);
+          const Tally near = tally_of(random, projection, law.law, finite, company, kNearWork);
+          EXPECT_GT(near.regular, 0.99 * 30 * 2 * kBatchSize);
+          captured += near.captured;
+        }
       }
     }
   }
@@ -127,7 +131,7 @@ TEST(PlanesBatch, DerivativesAreThoseOfDifferences) {
     const Projection projection = trial % 2 ? Projection::LatLong : Projection::Perspective;
     const Scene scene = random_scene(random, projection, 1 + trial % 3, 1 + trial % 4 / 2 * 2, 0.05);
     const Deflectors deflectors =
-        deflectors_of(scene, kLaws[static_cast<std::size_t>(trial % 3)].law, trial % 8 < 4);
+        in_company(deflectors_of(scene, kLaws[static_cast<std::size_t>(trial % 3)].law, trial % 8 < 4));
     Film film;
     random_film(random, scene.camera, film);
     const auto rays = passed<Dual>(scene.camera, deflectors, kNearWork, film);
