@@ -32,6 +32,11 @@ struct TileCounts {
   std::int64_t refined = 0;
 };
 
+/// What of a captured ray's light is covered by nothing before.
+float uncovered(const Rgba& seen) {
+  return std::max(0.0F, 1.0F - seen[3]);
+}
+
 /// What became of a batch: its rays were traced and may meet something; they meet nothing; or that was known
 /// before, and no ray was traced.
 enum class Found { Something, Nothing, NothingNew };
@@ -62,9 +67,13 @@ class SparseTracer {
 
  private:
   static bool meets_nothing(const TraceBatch& batch) {
-    return std::none_of(batch.surfaces.begin(), batch.surfaces.end(), [](const SurfaceBatch& surface) {
-      return std::find(surface.outcome.begin(), surface.outcome.end(), Outcome::Hit) != surface.outcome.end();
-    });
+    const bool any_captured =
+        std::any_of(batch.captured, batch.captured + kBatchSize, [](double c) { return c != 0; });
+    return !any_captured &&
+           std::none_of(batch.surfaces.begin(), batch.surfaces.end(), [](const SurfaceBatch& surface) {
+             return std::find(surface.outcome.begin(), surface.outcome.end(), Outcome::Hit) !=
+                    surface.outcome.end();
+           });
   }
 
   bool plain_rays_meet_nothing(const TraceBatch& batch) {
@@ -94,12 +103,12 @@ class TileTaker {
         batch_(tracer.make_batch()),
         points_(tracer.surfaces().size()) {}
 
-  TileCounts take(const Tile& tile, Picture& picture) {
+  TileCounts take(const Tile& tile, Composite& result) {
     tile_ = tile;
     counts_ = {std::vector<double>(points_.size(), 0.0), 0, 0};
     if (const std::optional<CentreGrid> grid = trace_centres()) {
-      std::vector<EdgePixel> edge_pixels = look_at_centres(*grid, picture);
-      look_at_edges(edge_pixels, picture);
+      std::vector<EdgePixel> edge_pixels = look_at_centres(*grid, result);
+      look_at_edges(edge_pixels, result);
     }
     return std::move(counts_);
   }
@@ -114,6 +123,14 @@ class TileTaker {
   bool in_frame(FilmPosition film) const {
     const Camera& camera = tracer_.camera();
     return film.x > 0 && film.x < camera.width && film.y > 0 && film.y < camera.height;
+  }
+
+  /// Writes what a pixel of the tile sees.
+  void put(int column, int row, const Rgba& seen, float shadow, Composite& result) const {
+    const int x = tile_.left + column, y = tile_.top + row;
+    result.picture.at(x, y) = seen;
+    result.shadow[static_cast<std::size_t>(y) * static_cast<std::size_t>(result.picture.width) +
+                  static_cast<std::size_t>(x)] = shadow;
   }
 
   void count(FilmPosition film, std::span<const SeenPoint> points) {
@@ -161,12 +178,13 @@ class TileTaker {
           for (std::size_t k = 0; k < points_.size(); ++k) {
             grid->points(n)[k] = seen_point(batch_.surfaces[k], i);
           }
+          grid->captured(n) = batch_.captured[i] != 0.0 ? 1 : 0;
         });
     return grid;
   }
 
   /// Looks where one ray does; returns the other pixels.
-  std::vector<EdgePixel> look_at_centres(const CentreGrid& grid, Picture& picture) {
+  std::vector<EdgePixel> look_at_centres(const CentreGrid& grid, Composite& result) {
     const std::vector<PixelKind> kinds =
         sampling_.max > 1 ? grid.kinds() : std::vector<PixelKind>(grid.size(), PixelKind::Smooth);
     std::vector<EdgePixel> edge_pixels;
@@ -178,7 +196,8 @@ class TileTaker {
           continue;
         }
         count(film(column, row), grid.points(at));
-        picture.at(tile_.left + column, tile_.top + row) = viewer_.see(grid.points(at), 1.0);
+        const Rgba seen = viewer_.see(grid.points(at), 1.0);
+        put(column, row, seen, grid.captured(at) ? uncovered(seen) : 0.0F, result);
       }
     }
     return edge_pixels;
@@ -202,11 +221,12 @@ class TileTaker {
         },
         [&](std::size_t n, std::size_t i) {
           for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
-          pixels[n / each]->add(points_, viewer_.see(points_, kSampleScale));
+          const Rgba seen = viewer_.see(points_, kSampleScale);
+          pixels[n / each]->add(points_, seen, batch_.captured[i] != 0.0 ? uncovered(seen) : 0.0F);
         });
   }
 
-  void look_at_edges(std::vector<EdgePixel>& pixels, Picture& picture) {
+  void look_at_edges(std::vector<EdgePixel>& pixels, Composite& result) {
     std::vector<EdgePixel*> wanting;
     for (EdgePixel& pixel : pixels) wanting.push_back(&pixel);
     const int first = std::min(kFirstSamples, sampling_.max);
@@ -214,7 +234,7 @@ class TileTaker {
     std::erase_if(wanting, [&](const EdgePixel* p) { return p->error() <= sampling_.threshold; });
     if (first < sampling_.max) add_rays(wanting, first, sampling_.max);
     for (const EdgePixel& pixel : pixels) {
-      picture.at(tile_.left + pixel.column(), tile_.top + pixel.row()) = pixel.mean();
+      put(pixel.column(), pixel.row(), pixel.mean(), pixel.shadow(), result);
       count(pixel);
     }
     counts_.refined += static_cast<std::int64_t>(pixels.size());
@@ -235,7 +255,8 @@ class TileTaker {
 Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling,
                     const EmptySpace& empty) {
   const Camera& camera = tracer.camera();
-  Composite result{blank_picture(camera), std::vector<double>(looks.size(), 0.0)};
+  Composite result{{blank_picture(camera), {}}, std::vector<double>(looks.size(), 0.0)};
+  result.shadow.assign(result.picture.pixels.size(), 0.0F);
   const int columns = (camera.full_width() + kTileSize - 1) / kTileSize;
   const int rows = (camera.full_height() + kTileSize - 1) / kTileSize;
   std::vector<TileCounts> counts(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -245,7 +266,7 @@ Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks,
       const int left = i % columns * kTileSize, top = i / columns * kTileSize;
       const Tile tile{left, top, std::min(kTileSize, camera.full_width() - left),
                       std::min(kTileSize, camera.full_height() - top)};
-      counts[static_cast<std::size_t>(i)] = taker.take(tile, result.picture);
+      counts[static_cast<std::size_t>(i)] = taker.take(tile, result);
     }
   });
   for (const TileCounts& of_tile : counts) {  // in one order, so that the sums are always the same
@@ -269,7 +290,12 @@ Picture blank_picture(const Camera& camera) {
   return picture;
 }
 
+void blacken_shadow(ShadowedPicture& result) {
+  for (std::size_t i = 0; i < result.shadow.size(); ++i) result.picture.pixels[i][3] += result.shadow[i];
+}
+
 void add(const Composite& other, Composite& sum) {
+  for (std::size_t i = 0; i < sum.shadow.size(); ++i) sum.shadow[i] += other.shadow[i];
   for (std::size_t i = 0; i < sum.picture.pixels.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) sum.picture.pixels[i][c] += other.picture.pixels[i][c];
   }
@@ -282,6 +308,7 @@ void scale(double by, Composite& composite) {
   for (Rgba& pixel : composite.picture.pixels) {
     for (float& channel : pixel) channel *= static_cast<float>(by);
   }
+  for (float& shadow : composite.shadow) shadow *= static_cast<float>(by);
   for (double& hits : composite.hits) hits *= by;
 }
 

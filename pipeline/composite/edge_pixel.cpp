@@ -27,12 +27,13 @@ float seen_brightness(float light) {
 EdgePixel::EdgePixel(int column, int row, PixelKind kind, std::size_t surfaces)
     : column_(column), row_(row), kind_(kind), hits_(surfaces, 0) {}
 
-void EdgePixel::add(std::span<const SeenPoint> points, const Rgba& colour) {
+void EdgePixel::add(std::span<const SeenPoint> points, const Rgba& colour, float shadow) {
   assert(rays_ < kMostSamples && points.size() == hits_.size());
   if (rays_ == 0) first_.assign(points.begin(), points.end());
   alike_ = alike_ && meet_alike(first_, points);
   for (std::size_t k = 0; k < points.size(); ++k) hits_[k] += points[k].hit ? 1 : 0;
   seen_[static_cast<std::size_t>(rays_++)] = colour;
+  shadow_ += shadow;
 }
 
 Rgba EdgePixel::mean() const {

@@ -31,11 +31,15 @@ class EdgePixel {
   int column() const { return column_; }
   int row() const { return row_; }
 
-  /// Adds the next ray: what it meets on every surface, and its colour. Up to kMostSamples.
-  void add(std::span<const SeenPoint> points, const Rgba& colour);
+  /// Adds the next ray: what it meets on every surface, its colour, and what of it ends in a mass and is not
+  /// covered. Up to kMostSamples.
+  void add(std::span<const SeenPoint> points, const Rgba& colour, float shadow = 0);
 
   /// The mean of the colours.
   Rgba mean() const;
+
+  /// The mean of what ends in masses.
+  float shadow() const { return shadow_ / static_cast<float>(rays_); }
 
   /// The share of the rays that meet a surface.
   double share_of(std::size_t surface) const;
@@ -52,6 +56,7 @@ class EdgePixel {
   PixelKind kind_;
   int rays_ = 0;
   std::array<Rgba, kMostSamples> seen_{};
+  float shadow_ = 0;              // of all rays
   std::vector<int> hits_;         // per surface: how many rays meet it
   std::vector<SeenPoint> first_;  // of the first ray
   bool alike_ = true;             // all rays meet what the first does, in its order
