@@ -42,6 +42,7 @@ bool may_enter(const Ball& ball, const RayPoint<N>& from, double h, const RaySte
   if (!((begin - ball.centre).dot(value_of(from.p)) < 0.0)) return false;
   if (!((end - ball.centre).dot(value_of(step.end.p)) > 0.0)) return false;
   const StraightApproach chord = straight_approach(begin, end - begin, ball);
+  if (chord.meets) return true;  // its entry may lie outside the ball by rounding
   const Vec3 nearest = begin + (end - begin) * std::clamp(chord.t, 0.0, 1.0) - ball.centre;
   return nearest.length() <= ball.radius + h * h * step.largest_force;  // the ray's bulge from its chord
 }

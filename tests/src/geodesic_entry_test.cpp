@@ -39,6 +39,20 @@ TEST(GeodesicEntry, LongStepsDoNotMissASmallBall) {
   }
 }
 
+TEST(GeodesicEntry, NearlyStraightLightMissesNoBall) {
+  // So little bent that a step and its chord differ by less than rounding.
+  const std::array masses = {PointMass{5e-3, Vec3(0, 0, -1e9)}};
+  for (int n = 0; n < 200; ++n) {
+    const Vec3 direction = Vec3(1e-6 + 3e-8 * n, 2e-7 * (n % 7), -1).normalized();
+    const auto ray = trace(masses, direction, 1e-12);
+    const Vec3 there = ray.position + ray.direction * 2e9;
+    for (const double offset : {0.0, 0.5, 0.9}) {
+      const std::array ball = {Ball{there + Vec3(0, offset * 150.0, 0), 150.0}};
+      EXPECT_TRUE(trace(masses, direction, 1e-12, ball).hits[0].hit) << n << ' ' << offset;
+    }
+  }
+}
+
 TEST(GeodesicEntry, HitsABallBeforeItIsCaptured) {
   const auto masses = mass_ahead(30);
   const std::array balls = {Ball{masses[0].position, 4.0}, Ball{masses[0].position, 0.1},
