@@ -13,6 +13,7 @@
 
 #include "pipeline/composite/edge_finder.h"
 #include "pipeline/composite/edge_pixel.h"
+#include "pipeline/composite/thin_light.h"
 #include "src/bodies.h"
 
 namespace lensplane {
@@ -31,11 +32,6 @@ struct TileCounts {
   std::int64_t rays = 0;
   std::int64_t refined = 0;
 };
-
-/// What of a captured ray's light is covered by nothing before.
-float uncovered(const Rgba& seen) {
-  return std::max(0.0F, 1.0F - seen[3]);
-}
 
 /// What became of a batch: its rays were traced and may meet something; they meet nothing; or that was known
 /// before, and no ray was traced.
@@ -67,13 +63,9 @@ class SparseTracer {
 
  private:
   static bool meets_nothing(const TraceBatch& batch) {
-    const bool any_captured =
-        std::any_of(batch.captured, batch.captured + kBatchSize, [](double c) { return c != 0; });
-    return !any_captured &&
-           std::none_of(batch.surfaces.begin(), batch.surfaces.end(), [](const SurfaceBatch& surface) {
-             return std::find(surface.outcome.begin(), surface.outcome.end(), Outcome::Hit) !=
-                    surface.outcome.end();
-           });
+    return std::none_of(batch.surfaces.begin(), batch.surfaces.end(), [](const SurfaceBatch& surface) {
+      return std::find(surface.outcome.begin(), surface.outcome.end(), Outcome::Hit) != surface.outcome.end();
+    });
   }
 
   bool plain_rays_meet_nothing(const TraceBatch& batch) {
@@ -95,20 +87,24 @@ class SparseTracer {
 class TileTaker {
  public:
   TileTaker(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling,
-            const EmptySpace& empty)
+            const EmptySpace& empty, const ThinBodies& thin)
       : tracer_(tracer),
         sampling_(sampling),
+        thin_(thin),
         viewer_(tracer.surfaces(), looks),
         sparse_(tracer, empty),
         batch_(tracer.make_batch()),
         points_(tracer.surfaces().size()) {}
 
-  TileCounts take(const Tile& tile, Composite& result) {
+  TileCounts take(const Tile& tile, Picture& picture) {
     tile_ = tile;
     counts_ = {std::vector<double>(points_.size(), 0.0), 0, 0};
-    if (const std::optional<CentreGrid> grid = trace_centres()) {
-      std::vector<EdgePixel> edge_pixels = look_at_centres(*grid, result);
-      look_at_edges(edge_pixels, result);
+    look_at_thin_bodies();
+    std::optional<CentreGrid> grid = trace_centres();
+    if (!grid && !thin_light_.empty()) grid.emplace(tracer_.surfaces(), tile_.width, tile_.height);
+    if (grid) {
+      std::vector<EdgePixel> edge_pixels = look_at_centres(*grid, picture);
+      look_at_edges(edge_pixels, picture);
     }
     return std::move(counts_);
   }
@@ -125,24 +121,51 @@ class TileTaker {
     return film.x > 0 && film.x < camera.width && film.y > 0 && film.y < camera.height;
   }
 
-  /// Writes what a pixel of the tile sees.
-  void put(int column, int row, const Rgba& seen, float shadow, Composite& result) const {
-    const int x = tile_.left + column, y = tile_.top + row;
-    result.picture.at(x, y) = seen;
-    result.shadow[static_cast<std::size_t>(y) * static_cast<std::size_t>(result.picture.width) +
-                  static_cast<std::size_t>(x)] = shadow;
-  }
-
-  void count(FilmPosition film, std::span<const SeenPoint> points) {
+  /// `weight`: of the pixel at `film`.
+  void count(FilmPosition film, std::span<const SeenPoint> points, double weight) {
     for (std::size_t k = 0; k < points.size(); ++k) {
-      if (points[k].hit && in_frame(film)) counts_.hits[k] += 1.0;
+      if (points[k].hit && in_frame(film)) counts_.hits[k] += weight;
     }
   }
 
   void count(const EdgePixel& pixel) {
+    const double rest = thin_light_.rest(pixel.column(), pixel.row());
     for (std::size_t k = 0; k < points_.size(); ++k) {
-      if (in_frame(film(pixel.column(), pixel.row()))) counts_.hits[k] += pixel.share_of(k);
+      if (in_frame(film(pixel.column(), pixel.row()))) counts_.hits[k] += rest * pixel.share_of(k);
     }
+  }
+
+  /// Takes the thin bodies off what a ray meets whose light is known. True when there are any.
+  bool take_off_thin(FilmPosition film, std::span<SeenPoint> points) const {
+    bool any = false;
+    for (auto image = thin_.image_of(film, points); image >= 0; image = thin_.image_of(film, points)) {
+      points[thin_.surface(static_cast<std::size_t>(image))] = {};
+      any = true;
+    }
+    return any;
+  }
+
+  /// Traces the rays over thin images near the tile. Where another body's image lies over one of them, the
+  /// first has the light of both.
+  void look_at_thin_bodies() {
+    const FilmPosition corner = film(0, 0);
+    const std::vector<ThinRay> rays =
+        thin_.rays_around(corner.x - 0.5, corner.y - 0.5, tile_.width, tile_.height);
+    thin_light_ =
+        rays.empty() ? ThinLight() : ThinLight(corner.x - 0.5, corner.y - 0.5, tile_.width, tile_.height);
+    trace(
+        rays.size(), [&](std::size_t n) { return rays[n].film; },
+        [&](TraceBatch& batch) {
+          thin_.tracer().trace(batch);
+          return Found::Something;
+        },
+        [&](std::size_t n, std::size_t i) {
+          for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
+          if (thin_.image_of(rays[n].film, points_) != static_cast<std::ptrdiff_t>(rays[n].image)) return;
+          thin_light_.add(
+              rays[n], viewer_.see(points_, rays[n].scale),
+              [&](int column, int row, double weight) { count(film(column, row), points_, weight); });
+        });
   }
 
   /// Traces rays number 0 to `rays` at film positions `position(n)`, by batches, and calls `use(n, i)` for
@@ -178,13 +201,13 @@ class TileTaker {
           for (std::size_t k = 0; k < points_.size(); ++k) {
             grid->points(n)[k] = seen_point(batch_.surfaces[k], i);
           }
-          grid->captured(n) = batch_.captured[i] != 0.0 ? 1 : 0;
+          take_off_thin({batch_.x[i], batch_.y[i]}, grid->points(n));
         });
     return grid;
   }
 
   /// Looks where one ray does; returns the other pixels.
-  std::vector<EdgePixel> look_at_centres(const CentreGrid& grid, Composite& result) {
+  std::vector<EdgePixel> look_at_centres(const CentreGrid& grid, Picture& picture) {
     const std::vector<PixelKind> kinds =
         sampling_.max > 1 ? grid.kinds() : std::vector<PixelKind>(grid.size(), PixelKind::Smooth);
     std::vector<EdgePixel> edge_pixels;
@@ -195,9 +218,9 @@ class TileTaker {
           edge_pixels.emplace_back(column, row, kinds[at], points_.size());
           continue;
         }
-        count(film(column, row), grid.points(at));
-        const Rgba seen = viewer_.see(grid.points(at), 1.0);
-        put(column, row, seen, grid.captured(at) ? uncovered(seen) : 0.0F, result);
+        count(film(column, row), grid.points(at), thin_light_.rest(column, row));
+        picture.at(tile_.left + column, tile_.top + row) =
+            thin_light_.over(column, row, viewer_.see(grid.points(at), 1.0));
       }
     }
     return edge_pixels;
@@ -221,12 +244,12 @@ class TileTaker {
         },
         [&](std::size_t n, std::size_t i) {
           for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
-          const Rgba seen = viewer_.see(points_, kSampleScale);
-          pixels[n / each]->add(points_, seen, batch_.captured[i] != 0.0 ? uncovered(seen) : 0.0F);
+          const bool on_thin = take_off_thin({batch_.x[i], batch_.y[i]}, points_);
+          pixels[n / each]->add(points_, viewer_.see(points_, kSampleScale), !on_thin);
         });
   }
 
-  void look_at_edges(std::vector<EdgePixel>& pixels, Composite& result) {
+  void look_at_edges(std::vector<EdgePixel>& pixels, Picture& picture) {
     std::vector<EdgePixel*> wanting;
     for (EdgePixel& pixel : pixels) wanting.push_back(&pixel);
     const int first = std::min(kFirstSamples, sampling_.max);
@@ -234,7 +257,8 @@ class TileTaker {
     std::erase_if(wanting, [&](const EdgePixel* p) { return p->error() <= sampling_.threshold; });
     if (first < sampling_.max) add_rays(wanting, first, sampling_.max);
     for (const EdgePixel& pixel : pixels) {
-      put(pixel.column(), pixel.row(), pixel.mean(), pixel.shadow(), result);
+      picture.at(tile_.left + pixel.column(), tile_.top + pixel.row()) =
+          thin_light_.over(pixel.column(), pixel.row(), pixel.mean());
       count(pixel);
     }
     counts_.refined += static_cast<std::int64_t>(pixels.size());
@@ -242,12 +266,14 @@ class TileTaker {
 
   const Tracer& tracer_;
   const Sampling& sampling_;
+  const ThinBodies& thin_;
   Viewer viewer_;
   SparseTracer sparse_;
   TraceBatch batch_;
   std::vector<SeenPoint> points_;  // of one ray
   Tile tile_{};
   TileCounts counts_;
+  ThinLight thin_light_;  // in the tile
 };
 
 }  // namespace
@@ -255,18 +281,18 @@ class TileTaker {
 Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling,
                     const EmptySpace& empty) {
   const Camera& camera = tracer.camera();
-  Composite result{{blank_picture(camera), {}}, std::vector<double>(looks.size(), 0.0)};
-  result.shadow.assign(result.picture.pixels.size(), 0.0F);
+  Composite result{blank_picture(camera), std::vector<double>(looks.size(), 0.0)};
+  const ThinBodies thin = sampling.max > 1 ? ThinBodies(tracer) : ThinBodies();
   const int columns = (camera.full_width() + kTileSize - 1) / kTileSize;
   const int rows = (camera.full_height() + kTileSize - 1) / kTileSize;
   std::vector<TileCounts> counts(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows), [&](const tbb::blocked_range<int>& range) {
-    TileTaker taker(tracer, looks, sampling, empty);
+    TileTaker taker(tracer, looks, sampling, empty, thin);
     for (int i = range.begin(); i != range.end(); ++i) {
       const int left = i % columns * kTileSize, top = i / columns * kTileSize;
       const Tile tile{left, top, std::min(kTileSize, camera.full_width() - left),
                       std::min(kTileSize, camera.full_height() - top)};
-      counts[static_cast<std::size_t>(i)] = taker.take(tile, result);
+      counts[static_cast<std::size_t>(i)] = taker.take(tile, result.picture);
     }
   });
   for (const TileCounts& of_tile : counts) {  // in one order, so that the sums are always the same
@@ -290,12 +316,7 @@ Picture blank_picture(const Camera& camera) {
   return picture;
 }
 
-void blacken_shadow(ShadowedPicture& result) {
-  for (std::size_t i = 0; i < result.shadow.size(); ++i) result.picture.pixels[i][3] += result.shadow[i];
-}
-
 void add(const Composite& other, Composite& sum) {
-  for (std::size_t i = 0; i < sum.shadow.size(); ++i) sum.shadow[i] += other.shadow[i];
   for (std::size_t i = 0; i < sum.picture.pixels.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) sum.picture.pixels[i][c] += other.picture.pixels[i][c];
   }
@@ -308,7 +329,6 @@ void scale(double by, Composite& composite) {
   for (Rgba& pixel : composite.picture.pixels) {
     for (float& channel : pixel) channel *= static_cast<float>(by);
   }
-  for (float& shadow : composite.shadow) shadow *= static_cast<float>(by);
   for (double& hits : composite.hits) hits *= by;
 }
 

@@ -27,21 +27,28 @@ float seen_brightness(float light) {
 EdgePixel::EdgePixel(int column, int row, PixelKind kind, std::size_t surfaces)
     : column_(column), row_(row), kind_(kind), hits_(surfaces, 0) {}
 
-void EdgePixel::add(std::span<const SeenPoint> points, const Rgba& colour, float shadow) {
+void EdgePixel::add(std::span<const SeenPoint> points, const Rgba& colour, bool counts) {
   assert(rays_ < kMostSamples && points.size() == hits_.size());
   if (rays_ == 0) first_.assign(points.begin(), points.end());
   alike_ = alike_ && meet_alike(first_, points);
-  for (std::size_t k = 0; k < points.size(); ++k) hits_[k] += points[k].hit ? 1 : 0;
+  for (std::size_t k = 0; k < points.size(); ++k) hits_[k] += counts && points[k].hit ? 1 : 0;
+  counts_[static_cast<std::size_t>(rays_)] = counts;
   seen_[static_cast<std::size_t>(rays_++)] = colour;
-  shadow_ += shadow;
 }
 
 Rgba EdgePixel::mean() const {
-  return mean_of({seen_.data(), static_cast<std::size_t>(rays_)});
+  std::array<Rgba, kMostSamples> counted;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rays_); ++i) {
+    if (counts_[i]) counted[count++] = seen_[i];
+  }
+  return count > 0 ? mean_of({counted.data(), count})
+                   : mean_of({seen_.data(), static_cast<std::size_t>(rays_)});
 }
 
 double EdgePixel::share_of(std::size_t surface) const {
-  return static_cast<double>(hits_[surface]) / rays_;
+  const auto counted = static_cast<double>(std::count(counts_.begin(), counts_.end(), true));
+  return counted > 0 ? hits_[surface] / counted : 0.0;
 }
 
 float EdgePixel::error() const {

@@ -31,17 +31,14 @@ class EdgePixel {
   int column() const { return column_; }
   int row() const { return row_; }
 
-  /// Adds the next ray: what it meets on every surface, its colour, and what of it ends in a mass and is not
-  /// covered. Up to kMostSamples.
-  void add(std::span<const SeenPoint> points, const Rgba& colour, float shadow = 0);
+  /// Adds the next ray: what it meets on every surface, and its colour. Up to kMostSamples. One that does not
+  /// count lies where a thin body is, whose light is known (see thin_bodies.h): it is there for the error.
+  void add(std::span<const SeenPoint> points, const Rgba& colour, bool counts = true);
 
-  /// The mean of the colours.
+  /// The mean of the colours of the rays that count; of all where none does.
   Rgba mean() const;
 
-  /// The mean of what ends in masses.
-  float shadow() const { return shadow_ / static_cast<float>(rays_); }
-
-  /// The share of the rays that meet a surface.
+  /// The share of the rays that count that meets a surface; 0 where none does.
   double share_of(std::size_t surface) const;
 
   /// The standard error of the mean, as seen, the worst channel's. With fewer than 8 rays nothing is known:
@@ -56,8 +53,8 @@ class EdgePixel {
   PixelKind kind_;
   int rays_ = 0;
   std::array<Rgba, kMostSamples> seen_{};
-  float shadow_ = 0;              // of all rays
-  std::vector<int> hits_;         // per surface: how many rays meet it
+  std::array<bool, kMostSamples> counts_{};
+  std::vector<int> hits_;         // per surface: how many of these meet it
   std::vector<SeenPoint> first_;  // of the first ray
   bool alike_ = true;             // all rays meet what the first does, in its order
 };

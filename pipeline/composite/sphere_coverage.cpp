@@ -11,6 +11,7 @@
 #include <numeric>
 #include <vector>
 
+#include "pipeline/composite/thin_bodies.h"
 #include "src/projection.h"
 #include "src/surfaces.h"
 
@@ -20,7 +21,8 @@ namespace {
 /// The cone of directions in which the camera sees the sphere.
 class Cone {
  public:
-  Cone(const Camera& camera, const Sphere& sphere) : camera_(camera) {
+  /// What `thin` images of it cover is not seen here.
+  Cone(const Camera& camera, const Sphere& sphere, const ThinBodies& thin) : camera_(camera), thin_(thin) {
     const Vec3 centre = std::get<Sphere>(camera_from_world(camera, sphere)).centre;
     const double distance = centre.length();
     inside_ = distance <= sphere.radius;
@@ -30,7 +32,11 @@ class Cone {
     half_chord_ = std::sin(0.5 * std::asin(sphere.radius / distance));
   }
 
-  bool sees(FilmPosition film) const { return lensplane::sees(camera_, film) && outside(film) <= 0.0; }
+  bool sees(FilmPosition film) const {
+    if (!lensplane::sees(camera_, film) || outside(film) > 0.0) return false;
+    const SeenPoint hit{true, 0, {}, {}};
+    return thin_.image_of(film, {&hit, 1}) < 0;
+  }
 
   /// How many pixels lie between a film position and the sphere, at least; 0 or less on it.
   double pixels_outside(FilmPosition film) const {
@@ -46,6 +52,7 @@ class Cone {
   }
 
   const Camera& camera_;
+  const ThinBodies& thin_;
   bool inside_ = false;
   Vec3 axis_{0};
   double half_chord_ = 0;
@@ -88,10 +95,36 @@ double covered_in_row(const Cone& cone, int row, const std::array<const RowOfHit
   return covered;
 }
 
+ThinBodies thin_without_lenses(const Camera& camera, const Sphere& sphere) {
+  Scene scene;
+  scene.camera = camera;
+  scene.surfaces = {sphere};
+  return ThinBodies(Tracer(scene, plan_trace(scene, Method::Planes)));
+}
+
+/// Pixels of the frame that thin images cover: what of each ray counts for pixels in the frame.
+double covered_by_thin(const Camera& camera, const ThinBodies& thin) {
+  const auto share = [](double place, int pixels) {
+    double sum = 0;
+    const int first = std::max(0, static_cast<int>(std::floor(place)) - kThinReach);
+    for (int pixel = first; pixel < std::min(pixels, first + 2 * kThinReach + 2); ++pixel) {
+      sum += pixel_weight(place - (pixel + 0.5));
+    }
+    return sum;
+  };
+  double covered = 0;
+  for (const ThinRay& ray : thin.rays_around(0, 0, camera.width, camera.height)) {
+    if (sees(camera, ray.film))
+      covered += ray.area * share(ray.film.x, camera.width) * share(ray.film.y, camera.height);
+  }
+  return covered;
+}
+
 }  // namespace
 
 double covered_without_lenses(const Camera& camera, const Sphere& sphere, const Sampling& sampling) {
-  const Cone cone(camera, sphere);
+  const ThinBodies thin = sampling.max > 1 ? thin_without_lenses(camera, sphere) : ThinBodies();
+  const Cone cone(camera, sphere, thin);
   std::vector<RowOfHits> hits(static_cast<std::size_t>(camera.height) + 2);
   tbb::parallel_for(std::size_t{0}, hits.size(), [&](std::size_t k) {
     hits[k] = hits_in_row(cone, camera.width, static_cast<int>(k) - 1);
@@ -100,7 +133,7 @@ double covered_without_lenses(const Camera& camera, const Sphere& sphere, const 
   tbb::parallel_for(std::size_t{0}, covered.size(), [&](std::size_t k) {
     covered[k] = covered_in_row(cone, static_cast<int>(k), {&hits[k], &hits[k + 1], &hits[k + 2]}, sampling);
   });
-  return std::accumulate(covered.begin(), covered.end(), 0.0);
+  return std::accumulate(covered.begin(), covered.end(), covered_by_thin(camera, thin));
 }
 
 }  // namespace lensplane

@@ -38,6 +38,19 @@ TEST(EdgePixel, IsTheMeanOfItsRays) {
   EXPECT_EQ(pixel.row(), 4);
 }
 
+TEST(EdgePixel, RaysThatDoNotCountAreThereForTheErrorAlone) {
+  EdgePixel pixel(0, 0, PixelKind::Curved, 2), none(0, 0, PixelKind::Curved, 2);
+  for (int n = 0; n < 16; ++n) {
+    pixel.add(n < 4 ? kOneMissed : kNear, grey(n < 4 ? 1 : 0.5F), n >= 4);
+    none.add(kNear, grey(n < 8 ? 1 : 0), false);
+  }
+  EXPECT_EQ(pixel.mean(), grey(0.5F));
+  EXPECT_EQ(pixel.share_of(1), 1);
+  EXPECT_GT(pixel.error(), 0);
+  EXPECT_EQ(none.mean(), grey(0.5F));
+  EXPECT_EQ(none.share_of(0), 0);
+}
+
 TEST(EdgePixel, GroupsThatDifferTellTheError) {
   // Groups of means 0, 0, 0 and 1, as seen 0 and 1/1.18; their mean .25, as seen .25/.43.
   const EdgePixel pixel = pixel_of([](int n) { return grey(n < 4 ? 1 : 0); });
