@@ -55,6 +55,12 @@ void trace_tile(const Tracer& tracer, const Tile& tile, int origin, TraceBatch& 
 
 }  // namespace
 
+const Pass* pass_of(const LensMap& map, std::string_view channel) {
+  const auto pass = std::find_if(map.passes.begin(), map.passes.end(),
+                                 [channel](const Pass& p) { return p.channel == channel; });
+  return pass == map.passes.end() ? nullptr : &*pass;
+}
+
 std::vector<LensMap> trace_maps(const Tracer& tracer) {
   return trace_maps(tracer, {0, tracer.camera().full_height()});
 }

@@ -29,6 +29,9 @@ struct LensMap {
   std::vector<Pass> passes;  // what the plan's effects call for, in the order of kEffectNames
 };
 
+/// A pass by the name of its channel; null when the map has none.
+const Pass* pass_of(const LensMap& map, std::string_view channel);
+
 /// Rows of the film, counted from the top of the overscan.
 struct RowRange {
   int begin = 0;

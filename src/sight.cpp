@@ -122,7 +122,14 @@ void set(const Sight& sight, const SurfaceHit<Number>& hit, int i, SurfaceBatch&
   passes.bends[i] = hit.bends;
 }
 
+template <class Number>
+void set(const Sight& sight, const RayHits<Number>& ray, int i, TraceBatch& batch) {
+  for (std::size_t k = 0; k < ray.hits.size(); ++k) set(sight, ray.hits[k], i, batch.surfaces[k]);
+  batch.captured[i] = ray.captured ? 1.0 : 0.0;
+}
+
 void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k) {
+  to.captured[k] = from.captured[i];
   for (std::size_t n = 0; n < from.surfaces.size(); ++n) {
     const SurfaceBatch& a = from.surfaces[n];
     SurfaceBatch& b = to.surfaces[n];
@@ -230,6 +237,7 @@ void see_bodies(const Sight& sight, const Ends& ends, int bends, Stretch stretch
 
 template <class Number>
 void see_infinity(const Sight& sight, const LineBatch<Number>& rays, int bends, TraceBatch& batch) {
+  std::copy_n(rays.captured, kBatchSize, batch.captured);
   for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
     SurfaceBatch& surface = batch.surfaces[k];
     if (!is_body(sight.surfaces[k])) {
@@ -251,6 +259,8 @@ void see_infinity(const Sight& sight, const LineBatch<Number>& rays, int bends, 
 
 template void set(const Sight&, const SurfaceHit<double>&, int, SurfaceBatch&);
 template void set(const Sight&, const SurfaceHit<Dual>&, int, SurfaceBatch&);
+template void set(const Sight&, const RayHits<double>&, int, TraceBatch&);
+template void set(const Sight&, const RayHits<Dual>&, int, TraceBatch&);
 template void see_bodies(const Sight&, const Ends&, int, Stretch, LineBatch<double>&, TraceBatch&);
 template void see_bodies(const Sight&, const Ends&, int, Stretch, LineBatch<Dual>&, TraceBatch&);
 template void see_infinity(const Sight&, const LineBatch<double>&, int, TraceBatch&);

@@ -14,7 +14,8 @@ namespace lensplane {
 
 /// A batch of film positions, in, and what they see, out.
 struct TraceBatch {
-  alignas(64) BatchArray x{}, y{};     // pixels; all kBatchSize must be finite
+  alignas(64) BatchArray x{}, y{};    // pixels; all kBatchSize must be finite
+  alignas(64) BatchArray captured{};  // out: 1 where the light ends in a mass, whatever it met before, else 0
   std::vector<SurfaceBatch> surfaces;  // in the order of Scene::surfaces; where not Hit, s = t = 0
 };
 
@@ -39,6 +40,17 @@ void clear_bodies(const Sight& sight, TraceBatch& batch);
 template <class Number>
 void set(const Sight& sight, const SurfaceHit<Number>& hit, int i, SurfaceBatch& surface);
 
+/// What one ray meets on each surface, in their order.
+template <class Number>
+struct RayHits {
+  std::vector<SurfaceHit<Number>> hits;
+  bool captured = false;  // it ends in a mass, whatever it met before
+};
+
+/// Writes one ray's results, on all surfaces.
+template <class Number>
+void set(const Sight& sight, const RayHits<Number>& ray, int i, TraceBatch& batch);
+
 /// Copies one ray's results, on all surfaces.
 void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k);
 
@@ -53,7 +65,7 @@ template <class Number>
 void see_bodies(const Sight& sight, const Ends& ends, int bends, Stretch stretch, LineBatch<Number>& rays,
                 TraceBatch& batch);
 
-/// Lets the rays meet what lies at infinity. `bends`: how many planes bent them.
+/// Lets the rays meet what lies at infinity, or end in their masses. `bends`: how many planes bent them.
 template <class Number>
 void see_infinity(const Sight& sight, const LineBatch<Number>& rays, int bends, TraceBatch& batch);
 

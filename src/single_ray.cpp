@@ -3,6 +3,7 @@
 #include "src/single_ray.h"
 
 #include <type_traits>
+#include <utility>
 
 #include "src/bodies.h"
 #include "src/geodesic_batch.h"
@@ -57,8 +58,8 @@ CurvedScene curved_scene(const Sight& sight, const Plan& plan) {
 }
 
 template <class Number>
-std::vector<SurfaceHit<Number>> hits_of(const Sight& sight, FilmPosition film, const Vector<Number>& first,
-                                        const GeodesicRay<Number>& ray) {
+RayHits<Number> hits_of(const Sight& sight, FilmPosition film, const Vector<Number>& first,
+                        const GeodesicRay<Number>& ray) {
   std::vector<SurfaceHit<Number>> hits;
   auto ball = ray.hits.begin();
   auto disc = ray.disc_hits.begin();
@@ -77,7 +78,7 @@ std::vector<SurfaceHit<Number>> hits_of(const Sight& sight, FilmPosition film, c
       hits.back().delay = value_of(ray.delay);
     }
   }
-  return hits;
+  return {std::move(hits), ray.captured};
 }
 
 }  // namespace
@@ -90,15 +91,15 @@ RayPath<Number> path_of_ray(const Camera& camera, const Plan& plan, std::size_t 
 }
 
 template <class Number>
-std::vector<std::vector<SurfaceHit<Number>>> trace_curved_rays(const Sight& sight, const Plan& plan,
-                                                               std::span<const FilmPosition> films) {
+std::vector<RayHits<Number>> trace_curved_rays(const Sight& sight, const Plan& plan,
+                                               std::span<const FilmPosition> films) {
   const CurvedScene scene = curved_scene(sight, plan);
   std::vector<Vector<Number>> first;
   for (const FilmPosition film : films) first.push_back(direction_from_film<Number>(sight.camera, film));
   const Vector<Number> camera(Number(0.0), Number(0.0), Number(0.0));
   const auto rays = trace_geodesics<Number>(scene.masses, camera, first, plan.geodesic_tolerance,
                                             {scene.balls, scene.discs});
-  std::vector<std::vector<SurfaceHit<Number>>> hits;
+  std::vector<RayHits<Number>> hits;
   for (std::size_t i = 0; i < films.size(); ++i) {
     hits.push_back(hits_of(sight, films[i], first[i], rays[i]));
   }
@@ -106,8 +107,7 @@ std::vector<std::vector<SurfaceHit<Number>>> trace_curved_rays(const Sight& sigh
 }
 
 template <class Number>
-std::vector<SurfaceHit<Number>> trace_ray(const Sight& sight, const Plan& plan, std::size_t recipe,
-                                          FilmPosition film) {
+RayHits<Number> trace_ray(const Sight& sight, const Plan& plan, std::size_t recipe, FilmPosition film) {
   if (plan.method == Method::Geodesic) return trace_curved_rays<Number>(sight, plan, {&film, 1}).front();
   const RayPath<Number> path = path_of_ray<Number>(sight.camera, plan, recipe, film);
   const bool finite = plan.method == Method::Planes && plan.recipes[recipe].finite_distance;
@@ -115,16 +115,16 @@ std::vector<SurfaceHit<Number>> trace_ray(const Sight& sight, const Plan& plan, 
   for (const Surface& surface : sight.surfaces) {
     hits.push_back(meet(surface, sight.camera, film, path, finite ? &plan.recipes[recipe] : nullptr));
   }
-  return hits;
+  return {std::move(hits), path.captured};
 }
 
 template RayPath<double> path_of_ray(const Camera&, const Plan&, std::size_t, FilmPosition);
 template RayPath<Dual> path_of_ray(const Camera&, const Plan&, std::size_t, FilmPosition);
-template std::vector<std::vector<SurfaceHit<double>>> trace_curved_rays(const Sight&, const Plan&,
-                                                                        std::span<const FilmPosition>);
-template std::vector<std::vector<SurfaceHit<Dual>>> trace_curved_rays(const Sight&, const Plan&,
-                                                                      std::span<const FilmPosition>);
-template std::vector<SurfaceHit<double>> trace_ray(const Sight&, const Plan&, std::size_t, FilmPosition);
-template std::vector<SurfaceHit<Dual>> trace_ray(const Sight&, const Plan&, std::size_t, FilmPosition);
+template std::vector<RayHits<double>> trace_curved_rays(const Sight&, const Plan&,
+                                                        std::span<const FilmPosition>);
+template std::vector<RayHits<Dual>> trace_curved_rays(const Sight&, const Plan&,
+                                                      std::span<const FilmPosition>);
+template RayHits<double> trace_ray(const Sight&, const Plan&, std::size_t, FilmPosition);
+template RayHits<Dual> trace_ray(const Sight&, const Plan&, std::size_t, FilmPosition);
 
 }  // namespace lensplane

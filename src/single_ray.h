@@ -16,13 +16,12 @@ namespace lensplane {
 /// What the ray through `film` meets on each surface of `sight`, in their order. `recipe`: which of the
 /// plan's, by `planes`.
 template <class Number>
-std::vector<SurfaceHit<Number>> trace_ray(const Sight& sight, const Plan& plan, std::size_t recipe,
-                                          FilmPosition film);
+RayHits<Number> trace_ray(const Sight& sight, const Plan& plan, std::size_t recipe, FilmPosition film);
 
 /// The same by `geodesic` for many rays at once.
 template <class Number>
-std::vector<std::vector<SurfaceHit<Number>>> trace_curved_rays(const Sight& sight, const Plan& plan,
-                                                               std::span<const FilmPosition> films);
+std::vector<RayHits<Number>> trace_curved_rays(const Sight& sight, const Plan& plan,
+                                               std::span<const FilmPosition> films);
 
 /// The ray's path by the plane methods.
 template <class Number>

@@ -204,6 +204,7 @@ void Tracer::trace(TraceBatch& batch) const {
     SurfaceHit<Dual> unseen;  // with derivatives, so that they are cleared, too
     unseen.outcome = Outcome::Unseen;
     for (SurfaceBatch& surface : batch.surfaces) set(sight(), unseen, i, surface);
+    batch.captured[i] = 0.0;
   }
 }
 
@@ -270,22 +271,16 @@ void Tracer::trace_curved(TraceBatch& batch) const {
   for (std::size_t i = 0; i < kBatchSize; ++i) films[i] = {batch.x[i], batch.y[i]};
   const Sight view = sight();
   const auto hits = trace_curved_rays<Number>(view, plan_, films);
-  for (int i = 0; i < kBatchSize; ++i) {
-    const auto& of_ray = hits[static_cast<std::size_t>(i)];
-    for (std::size_t k = 0; k < of_ray.size(); ++k) set(view, of_ray[k], i, batch.surfaces[k]);
-  }
+  for (int i = 0; i < kBatchSize; ++i) set(view, hits[static_cast<std::size_t>(i)], i, batch);
 }
 
 void Tracer::trace_singly(std::size_t recipe, int i, TraceBatch& batch) const {
   const Sight view = sight();
   const FilmPosition film{batch.x[i], batch.y[i]};
-  const auto put = [&](const auto& hits) {
-    for (std::size_t k = 0; k < hits.size(); ++k) set(view, hits[k], i, batch.surfaces[k]);
-  };
   if (plan_.effects.derivatives()) {
-    put(trace_ray<Dual>(view, plan_, recipe, film));
+    set(view, trace_ray<Dual>(view, plan_, recipe, film), i, batch);
   } else {
-    put(trace_ray<double>(view, plan_, recipe, film));
+    set(view, trace_ray<double>(view, plan_, recipe, film), i, batch);
   }
 }
 

@@ -33,6 +33,11 @@ struct TileCounts {
   std::int64_t refined = 0;
 };
 
+/// What of a captured ray's light is covered by nothing before.
+float uncovered(const Rgba& seen) {
+  return std::max(0.0F, 1.0F - seen[3]);
+}
+
 /// What became of a batch: its rays were traced and may meet something; they meet nothing; or that was known
 /// before, and no ray was traced.
 enum class Found { Something, Nothing, NothingNew };
@@ -63,9 +68,13 @@ class SparseTracer {
 
  private:
   static bool meets_nothing(const TraceBatch& batch) {
-    return std::none_of(batch.surfaces.begin(), batch.surfaces.end(), [](const SurfaceBatch& surface) {
-      return std::find(surface.outcome.begin(), surface.outcome.end(), Outcome::Hit) != surface.outcome.end();
-    });
+    const bool any_captured =
+        std::any_of(batch.captured, batch.captured + kBatchSize, [](double c) { return c != 0; });
+    return !any_captured &&
+           std::none_of(batch.surfaces.begin(), batch.surfaces.end(), [](const SurfaceBatch& surface) {
+             return std::find(surface.outcome.begin(), surface.outcome.end(), Outcome::Hit) !=
+                    surface.outcome.end();
+           });
   }
 
   bool plain_rays_meet_nothing(const TraceBatch& batch) {
@@ -96,15 +105,15 @@ class TileTaker {
         batch_(tracer.make_batch()),
         points_(tracer.surfaces().size()) {}
 
-  TileCounts take(const Tile& tile, Picture& picture) {
+  TileCounts take(const Tile& tile, Composite& result) {
     tile_ = tile;
     counts_ = {std::vector<double>(points_.size(), 0.0), 0, 0};
     look_at_thin_bodies();
     std::optional<CentreGrid> grid = trace_centres();
     if (!grid && !thin_light_.empty()) grid.emplace(tracer_.surfaces(), tile_.width, tile_.height);
     if (grid) {
-      std::vector<EdgePixel> edge_pixels = look_at_centres(*grid, picture);
-      look_at_edges(edge_pixels, picture);
+      std::vector<EdgePixel> edge_pixels = look_at_centres(*grid, result);
+      look_at_edges(edge_pixels, result);
     }
     return std::move(counts_);
   }
@@ -119,6 +128,21 @@ class TileTaker {
   bool in_frame(FilmPosition film) const {
     const Camera& camera = tracer_.camera();
     return film.x > 0 && film.x < camera.width && film.y > 0 && film.y < camera.height;
+  }
+
+  /// Writes a pixel of the tile, of which thin bodies have their share and all else is `seen`.
+  void put(int column, int row, const SeenLight& seen, Composite& result) const {
+    const int x = tile_.left + column, y = tile_.top + row;
+    const SeenLight all = thin_light_.over(column, row, seen);
+    result.picture.at(x, y) = all.colour;
+    result.shadow[static_cast<std::size_t>(y) * static_cast<std::size_t>(result.picture.width) +
+                  static_cast<std::size_t>(x)] = all.shadow;
+  }
+
+  /// What a ray sees that meets `points`.
+  SeenLight see(std::span<const SeenPoint> points, double scale, bool captured) {
+    const Rgba colour = viewer_.see(points, scale);
+    return {colour, captured ? uncovered(colour) : 0.0F};
   }
 
   /// `weight`: of the pixel at `film`.
@@ -163,7 +187,7 @@ class TileTaker {
           for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
           if (thin_.image_of(rays[n].film, points_) != static_cast<std::ptrdiff_t>(rays[n].image)) return;
           thin_light_.add(
-              rays[n], viewer_.see(points_, rays[n].scale),
+              rays[n], see(points_, rays[n].scale, batch_.captured[i] != 0.0),
               [&](int column, int row, double weight) { count(film(column, row), points_, weight); });
         });
   }
@@ -201,13 +225,14 @@ class TileTaker {
           for (std::size_t k = 0; k < points_.size(); ++k) {
             grid->points(n)[k] = seen_point(batch_.surfaces[k], i);
           }
+          grid->captured(n) = batch_.captured[i] != 0.0 ? 1 : 0;
           take_off_thin({batch_.x[i], batch_.y[i]}, grid->points(n));
         });
     return grid;
   }
 
   /// Looks where one ray does; returns the other pixels.
-  std::vector<EdgePixel> look_at_centres(const CentreGrid& grid, Picture& picture) {
+  std::vector<EdgePixel> look_at_centres(const CentreGrid& grid, Composite& result) {
     const std::vector<PixelKind> kinds =
         sampling_.max > 1 ? grid.kinds() : std::vector<PixelKind>(grid.size(), PixelKind::Smooth);
     std::vector<EdgePixel> edge_pixels;
@@ -219,8 +244,7 @@ class TileTaker {
           continue;
         }
         count(film(column, row), grid.points(at), thin_light_.rest(column, row));
-        picture.at(tile_.left + column, tile_.top + row) =
-            thin_light_.over(column, row, viewer_.see(grid.points(at), 1.0));
+        put(column, row, see(grid.points(at), 1.0, grid.captured(at) != 0), result);
       }
     }
     return edge_pixels;
@@ -245,11 +269,12 @@ class TileTaker {
         [&](std::size_t n, std::size_t i) {
           for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
           const bool on_thin = take_off_thin({batch_.x[i], batch_.y[i]}, points_);
-          pixels[n / each]->add(points_, viewer_.see(points_, kSampleScale), !on_thin);
+          const SeenLight seen = see(points_, kSampleScale, batch_.captured[i] != 0.0);
+          pixels[n / each]->add(points_, seen.colour, seen.shadow, !on_thin);
         });
   }
 
-  void look_at_edges(std::vector<EdgePixel>& pixels, Picture& picture) {
+  void look_at_edges(std::vector<EdgePixel>& pixels, Composite& result) {
     std::vector<EdgePixel*> wanting;
     for (EdgePixel& pixel : pixels) wanting.push_back(&pixel);
     const int first = std::min(kFirstSamples, sampling_.max);
@@ -257,8 +282,7 @@ class TileTaker {
     std::erase_if(wanting, [&](const EdgePixel* p) { return p->error() <= sampling_.threshold; });
     if (first < sampling_.max) add_rays(wanting, first, sampling_.max);
     for (const EdgePixel& pixel : pixels) {
-      picture.at(tile_.left + pixel.column(), tile_.top + pixel.row()) =
-          thin_light_.over(pixel.column(), pixel.row(), pixel.mean());
+      put(pixel.column(), pixel.row(), {pixel.mean(), pixel.shadow()}, result);
       count(pixel);
     }
     counts_.refined += static_cast<std::int64_t>(pixels.size());
@@ -281,7 +305,8 @@ class TileTaker {
 Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling,
                     const EmptySpace& empty) {
   const Camera& camera = tracer.camera();
-  Composite result{blank_picture(camera), std::vector<double>(looks.size(), 0.0)};
+  Composite result{{blank_picture(camera), {}}, std::vector<double>(looks.size(), 0.0)};
+  result.shadow.assign(result.picture.pixels.size(), 0.0F);
   const ThinBodies thin = sampling.max > 1 ? ThinBodies(tracer) : ThinBodies();
   const int columns = (camera.full_width() + kTileSize - 1) / kTileSize;
   const int rows = (camera.full_height() + kTileSize - 1) / kTileSize;
@@ -292,7 +317,7 @@ Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks,
       const int left = i % columns * kTileSize, top = i / columns * kTileSize;
       const Tile tile{left, top, std::min(kTileSize, camera.full_width() - left),
                       std::min(kTileSize, camera.full_height() - top)};
-      counts[static_cast<std::size_t>(i)] = taker.take(tile, result.picture);
+      counts[static_cast<std::size_t>(i)] = taker.take(tile, result);
     }
   });
   for (const TileCounts& of_tile : counts) {  // in one order, so that the sums are always the same
@@ -316,7 +341,12 @@ Picture blank_picture(const Camera& camera) {
   return picture;
 }
 
+void blacken_shadow(ShadowedPicture& result) {
+  for (std::size_t i = 0; i < result.shadow.size(); ++i) result.picture.pixels[i][3] += result.shadow[i];
+}
+
 void add(const Composite& other, Composite& sum) {
+  for (std::size_t i = 0; i < sum.shadow.size(); ++i) sum.shadow[i] += other.shadow[i];
   for (std::size_t i = 0; i < sum.picture.pixels.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) sum.picture.pixels[i][c] += other.picture.pixels[i][c];
   }
@@ -329,6 +359,7 @@ void scale(double by, Composite& composite) {
   for (Rgba& pixel : composite.picture.pixels) {
     for (float& channel : pixel) channel *= static_cast<float>(by);
   }
+  for (float& shadow : composite.shadow) shadow *= static_cast<float>(by);
   for (double& hits : composite.hits) hits *= by;
 }
 

@@ -20,19 +20,27 @@
 
 namespace lensplane {
 
-struct Composite {
-  Picture picture;           // the overscan included
+/// A picture that is transparent where light ends in a mass, and where that is.
+struct ShadowedPicture {
+  Picture picture;            // the overscan included
+  std::vector<float> shadow;  // share of every pixel whose light ends in a mass and is not covered before
+};
+
+struct Composite : ShadowedPicture {
   std::vector<double> hits;  // per surface: how many pixels of the frame, without overscan, it covers
   std::int64_t rays = 0;     // all that were traced
   std::int64_t refined = 0;  // pixels that got more than one ray
 };
 
 /// The picture that the tracer's camera takes; `looks` in the order of its surfaces. The tracer's plan has to
-/// call for the Jacobian. Where a ray meets nothing the picture is transparent black. `empty`: what is known
-/// already of what this tracer's rays meet. Runs in parallel; the picture depends neither on the number of
-/// threads nor on what is known.
+/// call for the Jacobian. Where a ray meets nothing, or ends in a mass, the picture is transparent black.
+/// `empty`: what is known already of what this tracer's rays meet. Runs in parallel; the picture depends
+/// neither on the number of threads nor on what is known.
 Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const Sampling& sampling,
                     const EmptySpace& empty = {});
+
+/// Makes the places where light ends black and opaque: the shadow is added to the alpha.
+void blacken_shadow(ShadowedPicture& result);
 
 /// Adds all of `other`, which has the same windows and surfaces, to `sum`; multiplies pictures and hits. The
 /// mean of several is a picture taken over time.

@@ -93,11 +93,18 @@ bool meet_alike(std::span<const SeenPoint> a, std::span<const SeenPoint> b) {
 }
 
 CentreGrid::CentreGrid(const std::vector<Surface>& surfaces, int width, int height)
-    : surfaces_(surfaces), width_(width), height_(height), points_(size() * surfaces.size()) {}
+    : surfaces_(surfaces),
+      width_(width),
+      height_(height),
+      points_(size() * surfaces.size()),
+      captured_(size(), 0) {}
 
 std::vector<PixelKind> CentreGrid::kinds() const {
   std::vector<PixelKind> kinds(size(), PixelKind::Smooth);
-  if (std::none_of(points_.begin(), points_.end(), [](const SeenPoint& p) { return p.hit; })) return kinds;
+  const auto any = [](const auto& all, auto is) { return std::any_of(all.begin(), all.end(), is); };
+  if (!any(points_, [](const SeenPoint& p) { return p.hit; }) &&
+      !any(captured_, [](std::uint8_t captured) { return captured != 0; }))
+    return kinds;
   std::vector<Field> fields;
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     const Surface& surface = surfaces_[k];
@@ -114,8 +121,8 @@ std::vector<PixelKind> CentreGrid::kinds() const {
       for (const Field& field : fields) find_apart(field, at, next, count, step, apart.data());
       for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         auto found = static_cast<PixelKind>(apart[i]);
-        if (fields.size() > 1 && are_reordered(points(at + i), points(next + i)))
-          found = PixelKind::Silhouette;
+        const bool reordered = fields.size() > 1 && are_reordered(points(at + i), points(next + i));
+        if (reordered || captured(at + i) != captured(next + i)) found = PixelKind::Silhouette;
         if (found == PixelKind::Smooth) continue;
         for (PixelKind* kind : {&kinds[at + i], &kinds[next + i]}) *kind = std::max(*kind, found);
       }

@@ -4,7 +4,8 @@
 //
 // The centres of a tile's pixels, and of one more around it, are traced with their Jacobians. A pixel needs
 // more rays when a neighbour meets other surfaces or meets them in another order, when the picture is
-// mirrored between the two, or when the neighbour is not where the pixel's Jacobian says.
+// mirrored between the two, when the light of one of them ends in a mass, or when the neighbour is not where
+// the pixel's Jacobian says.
 
 #pragma once
 
@@ -49,10 +50,16 @@ class CentreGrid {
   }
 
   /// What the pixel at a place meets, in the order of the surfaces.
-  std::span<SeenPoint> points(std::size_t at) { return {&points_[at * surfaces_.size()], surfaces_.size()}; }
-  std::span<const SeenPoint> points(std::size_t at) const {
-    return {&points_[at * surfaces_.size()], surfaces_.size()};
+  std::span<SeenPoint> points(std::size_t at) {
+    return {points_.data() + at * surfaces_.size(), surfaces_.size()};
   }
+  std::span<const SeenPoint> points(std::size_t at) const {
+    return {points_.data() + at * surfaces_.size(), surfaces_.size()};
+  }
+
+  /// Whether the light of the pixel at a place ends in a mass, whatever it meets before: 0 or 1.
+  std::uint8_t& captured(std::size_t at) { return captured_[at]; }
+  bool captured(std::size_t at) const { return captured_[at] != 0; }
 
   /// The kinds of the pixels, place by place. (Of the border's own not all that need more rays are found.)
   std::vector<PixelKind> kinds() const;
@@ -61,6 +68,7 @@ class CentreGrid {
   const std::vector<Surface>& surfaces_;
   int width_, height_;
   std::vector<SeenPoint> points_;
+  std::vector<std::uint8_t> captured_;
 };
 
 }  // namespace lensplane

@@ -27,13 +27,14 @@ float seen_brightness(float light) {
 EdgePixel::EdgePixel(int column, int row, PixelKind kind, std::size_t surfaces)
     : column_(column), row_(row), kind_(kind), hits_(surfaces, 0) {}
 
-void EdgePixel::add(std::span<const SeenPoint> points, const Rgba& colour, bool counts) {
+void EdgePixel::add(std::span<const SeenPoint> points, const Rgba& colour, float shadow, bool counts) {
   assert(rays_ < kMostSamples && points.size() == hits_.size());
   if (rays_ == 0) first_.assign(points.begin(), points.end());
   alike_ = alike_ && meet_alike(first_, points);
   for (std::size_t k = 0; k < points.size(); ++k) hits_[k] += counts && points[k].hit ? 1 : 0;
   counts_[static_cast<std::size_t>(rays_)] = counts;
   seen_[static_cast<std::size_t>(rays_++)] = colour;
+  shadow_ += counts ? shadow : 0;
 }
 
 Rgba EdgePixel::mean() const {
@@ -46,9 +47,16 @@ Rgba EdgePixel::mean() const {
                    : mean_of({seen_.data(), static_cast<std::size_t>(rays_)});
 }
 
+float EdgePixel::shadow() const {
+  return shadow_ / static_cast<float>(std::max(1, counted()));
+}
+
 double EdgePixel::share_of(std::size_t surface) const {
-  const auto counted = static_cast<double>(std::count(counts_.begin(), counts_.end(), true));
-  return counted > 0 ? hits_[surface] / counted : 0.0;
+  return static_cast<double>(hits_[surface]) / std::max(1, counted());
+}
+
+int EdgePixel::counted() const {
+  return static_cast<int>(std::count(counts_.begin(), counts_.end(), true));
 }
 
 float EdgePixel::error() const {

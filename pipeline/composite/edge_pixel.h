@@ -31,12 +31,16 @@ class EdgePixel {
   int column() const { return column_; }
   int row() const { return row_; }
 
-  /// Adds the next ray: what it meets on every surface, and its colour. Up to kMostSamples. One that does not
-  /// count lies where a thin body is, whose light is known (see thin_bodies.h): it is there for the error.
-  void add(std::span<const SeenPoint> points, const Rgba& colour, bool counts = true);
+  /// Adds the next ray: what it meets on every surface, its colour, and what of it ends in a mass and is not
+  /// covered. Up to kMostSamples. One that does not count lies where a thin body is, whose light is known
+  /// (see thin_bodies.h): it is there for the error.
+  void add(std::span<const SeenPoint> points, const Rgba& colour, float shadow = 0, bool counts = true);
 
   /// The mean of the colours of the rays that count; of all where none does.
   Rgba mean() const;
+
+  /// The mean of what ends in masses, of the rays that count; 0 where none does.
+  float shadow() const;
 
   /// The share of the rays that count that meets a surface; 0 where none does.
   double share_of(std::size_t surface) const;
@@ -46,6 +50,7 @@ class EdgePixel {
   float error() const;
 
  private:
+  int counted() const;
   float spread_of_groups() const;
   float jump() const;
 
@@ -54,6 +59,7 @@ class EdgePixel {
   int rays_ = 0;
   std::array<Rgba, kMostSamples> seen_{};
   std::array<bool, kMostSamples> counts_{};
+  float shadow_ = 0;              // of all rays that count
   std::vector<int> hits_;         // per surface: how many of these meet it
   std::vector<SeenPoint> first_;  // of the first ray
   bool alike_ = true;             // all rays meet what the first does, in its order

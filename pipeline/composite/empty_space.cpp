@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "src/map_channels.h"
+
 namespace lensplane {
 
 EmptySpace::EmptySpace(const Camera& camera)
@@ -12,15 +14,19 @@ EmptySpace::EmptySpace(const Camera& camera)
       height_(camera.full_height()),
       centres_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), Centre::Unknown) {}
 
-void EmptySpace::learn(const std::vector<LensMap>& maps, std::size_t first, RowRange rows) {
+void EmptySpace::learn(std::span<const LensMap> maps, std::size_t first, RowRange rows) {
   const std::size_t at = static_cast<std::size_t>(rows.begin) * static_cast<std::size_t>(width_);
   const std::size_t count =
       static_cast<std::size_t>(rows.end - rows.begin) * static_cast<std::size_t>(width_);
   for (std::size_t i = 0; i < count; ++i) centres_[at + i] = Centre::Empty;
-  for (const LensMap& map : maps) {
+  const auto see_where = [&](const UnsetVector<float>& values) {
     for (std::size_t i = 0; i < count; ++i) {
-      if (map.valid[first + i] != 0) centres_[at + i] = Centre::Seen;
+      if (values[first + i] != 0) centres_[at + i] = Centre::Seen;
     }
+  };
+  for (const LensMap& map : maps) {
+    see_where(map.valid);
+    if (const Pass* shadow = pass_of(map, kShadowChannel)) see_where(shadow->values);
   }
 }
 

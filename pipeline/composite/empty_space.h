@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a camera sees nothing, as the maps of a frame tell it: what they have traced the compositor need not
-// trace again.
+// Where a camera sees nothing, not even the shadow of a mass, as the maps of a frame tell it: what they have
+// traced the compositor need not trace again.
 
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "src/lens_map.h"
@@ -21,9 +22,10 @@ class EmptySpace {
   EmptySpace() = default;  // of no camera: nothing is ever known
   explicit EmptySpace(const Camera& camera);
 
-  /// `maps`: some rows of all the surfaces that the camera sees, from sample `first` on. With soft edges they
-  /// may say of a centre that it sees something when only its neighbourhood does.
-  void learn(const std::vector<LensMap>& maps, std::size_t first, RowRange rows);
+  /// `maps`: some rows of all the surfaces that the camera sees, from sample `first` on, with their shadow
+  /// pass where light may end in a mass: that is not nothing. With soft edges they may say of a centre that
+  /// it sees something when only its neighbourhood does.
+  void learn(std::span<const LensMap> maps, std::size_t first, RowRange rows);
 
   /// Of a batch of pixel centres. It meets something where one of them does.
   Known known_of(const TraceBatch& batch) const;

@@ -12,6 +12,12 @@
 
 namespace lensplane {
 
+/// What is seen: light, and what of it ends in masses and is covered by nothing.
+struct SeenLight {
+  Rgba colour{0, 0, 0, 0};
+  float shadow = 0;
+};
+
 /// The light of rays over thin images, in the pixels of a rectangle of the film.
 class ThinLight {
  public:
@@ -23,20 +29,20 @@ class ThinLight {
   /// Is there any?
   bool empty() const { return pixels_.empty(); }
 
-  /// Adds a ray that sees `colour`; calls `count(column, row, weight)` for each pixel that it adds to, whose
+  /// Adds a ray and what it sees; calls `count(column, row, weight)` for each pixel that it adds to, whose
   /// share it is.
   template <class Count>
-  void add(const ThinRay& ray, const Rgba& colour, Count count);
+  void add(const ThinRay& ray, const SeenLight& seen, Count count);
 
   /// How much of a pixel thin bodies leave to all else.
   double rest(int column, int row) const;
 
-  /// The pixel's colour, where all else has the mean `background`.
-  Rgba over(int column, int row, const Rgba& background) const;
+  /// What the pixel sees, where all else has the mean `background`.
+  SeenLight over(int column, int row, const SeenLight& background) const;
 
  private:
   struct Pixel {
-    Rgba colour{0, 0, 0, 0};
+    SeenLight seen;
     double weight = 0;
   };
   const Pixel& at(int column, int row) const {
@@ -50,7 +56,7 @@ class ThinLight {
 };
 
 template <class Count>
-void ThinLight::add(const ThinRay& ray, const Rgba& colour, Count count) {
+void ThinLight::add(const ThinRay& ray, const SeenLight& seen, Count count) {
   const double x = ray.film.x - left_ - 0.5, y = ray.film.y - top_ - 0.5;  // from the first pixel's centre
   const int first_column = static_cast<int>(std::floor(x)) - kThinReach + 1,
             first_row = static_cast<int>(std::floor(y)) - kThinReach + 1;
@@ -61,7 +67,9 @@ void ThinLight::add(const ThinRay& ray, const Rgba& colour, Count count) {
       const double weight = of_row * pixel_weight(x - column);
       Pixel& pixel = pixels_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
                              static_cast<std::size_t>(column)];
-      for (std::size_t c = 0; c < 4; ++c) pixel.colour[c] += static_cast<float>(weight) * colour[c];
+      const auto share = static_cast<float>(weight);
+      for (std::size_t c = 0; c < 4; ++c) pixel.seen.colour[c] += share * seen.colour[c];
+      pixel.seen.shadow += share * seen.shadow;
       pixel.weight += weight;
       count(column, row, weight);
     }

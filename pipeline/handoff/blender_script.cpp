@@ -128,7 +128,19 @@ for row, layer in enumerate(SHOT["layers"]):  # farthest first
     tree.links.new(picture, over.inputs[1])
     tree.links.new(looked_up.outputs[0], over.inputs[2])
     picture = over.outputs[0]
-tree.links.new(picture, node("Composite", 6, len(SHOT["layers"]) - 1).inputs["Image"])
+if SHOT["shadow"] is not None:  # where light ends: black already, and opaque
+    shadow = image_node(SHOT["shadow"], ["Non-Color", "Raw"], "NONE", scene.frame_start, 5, len(SHOT["layers"]))
+    parts = [node("SeparateColor", 6, len(SHOT["layers"]) + i) for i in range(2)]
+    tree.links.new(picture, parts[0].inputs[0])
+    tree.links.new(shadow.outputs["Image"], parts[1].inputs[0])
+    alpha = node("Math", 7, len(SHOT["layers"]), operation="ADD", use_clamp=True)
+    tree.links.new(parts[0].outputs[3], alpha.inputs[0])
+    tree.links.new(parts[1].outputs[0], alpha.inputs[1])
+    opaque = node("SetAlpha", 8, len(SHOT["layers"]), mode="REPLACE_ALPHA")
+    tree.links.new(picture, opaque.inputs["Image"])
+    tree.links.new(alpha.outputs[0], opaque.inputs["Alpha"])
+    picture = opaque.outputs[0]
+tree.links.new(picture, node("Composite", 9, len(SHOT["layers"]) - 1).inputs["Image"])
 )PY";
 
 /// A colour space as configs call it: the shot's, and Blender's own.
@@ -213,6 +225,9 @@ std::string blender_script(const Handoff& handoff) {
       {"config", handoff.config},
       {"working", names_of(shot.colour.working.text, handoff.working_id)},
       {"layers", layers},
+      {"shadow", handoff.shadow.empty()
+                     ? nlohmann::json()
+                     : nlohmann::json(path_of_frame(handoff.shadow, handoff.frames.front()))},
   };
   const std::string text = data.dump(1, ' ', true, nlohmann::json::error_handler_t::replace);
   // JSON has never three quotes in a row, and no backslash at its end.

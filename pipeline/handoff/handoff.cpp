@@ -71,7 +71,7 @@ bool moves_in_exposure(const Shot& shot) {
 
 Handoff hand_off(const Shot& shot, const std::vector<int>& frames, const std::filesystem::path& folder,
                  const ColourConfig& colours) {
-  Handoff handoff{shot, frames, folder, {}, colours.interop_id(shot.colour.working.text), {}, {}};
+  Handoff handoff{shot, frames, folder, {}, colours.interop_id(shot.colour.working.text), {}, {}, {}};
   std::vector<int> handed_at(shot.layers.size(), -1);
   for (std::size_t k = 0; k < shot.layers.size(); ++k) {
     if (std::holds_alternative<StarsLayer>(shot.layers[k].kind)) continue;
@@ -83,6 +83,8 @@ Handoff hand_off(const Shot& shot, const std::vector<int>& frames, const std::fi
   if (handoff.layers.empty())
     throw Failure(ExitCode::BadShot,
                   shot.file + ": layers: only stars, of which there are no maps to hand on");
+  if (!shot.lenses.empty() && shot.trace.shadow == HoleShadow::Opaque)
+    handoff.shadow = relative_to(shot.output.directory / (shot.name + ".shadow.####.exr"), folder);
   for (const int frame : frames) {
     std::vector<int>& order = handoff.by_depth.emplace_back();
     for (const std::size_t k : depth_order(shot, frame)) order.push_back(handed_at[k]);

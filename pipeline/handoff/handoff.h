@@ -38,6 +38,7 @@ struct Handoff {
   std::filesystem::path folder;            // of the script
   std::string config;                      // the OCIO config
   std::string working_id;                  // the working space's colorInteropID; empty when it has none
+  std::string shadow;                      // a sequence: what is added to the alpha; empty when nothing is
   std::vector<HandedLayer> layers;         // in the shot's order
   std::vector<std::vector<int>> by_depth;  // for each frame: indices into `layers`, farthest first
 };

@@ -130,6 +130,15 @@ std::string layer_nodes(const Handoff& handoff, const HandedLayer& layer, int co
          node("Merge2", fmt::format(" inputs 2\n operation mask\n name covered_{}\n", name), {column, 5});
 }
 
+/// Where light ends the picture is opaque; it is black there already.
+std::string shadow_nodes(const Handoff& handoff, int column, int row) {
+  if (handoff.shadow.empty()) return {};
+  return read(handoff, "shadow", handoff.shadow, " raw true\n", {column + 1, 0}) +
+         node("Shuffle", " red black\n green black\n blue black\n name black\n", {column + 1, row}) +
+         node("Merge2", " inputs 2\n operation plus\n name opaque\n", {column, row}) +
+         node("Clamp", " channels alpha\n name full\n", {column, row + 1});
+}
+
 void require_plain_image(const Handoff& handoff, const HandedLayer& layer) {
   const LayerImage& image = handoff.shot.layers[layer.layer].image;
   if (image.choice.layer.empty() && image.choice.part.empty()) return;
@@ -153,6 +162,7 @@ std::string nuke_script(const Handoff& handoff) {
       text += node("Merge2", fmt::format(" inputs 2\n operation over\n name over_{}\n", layer.name),
                    {2 * column, below});
   }
+  text += shadow_nodes(handoff, 2 * column - 2, below + 1);
   return text +
          node("Write",
               fmt::format(
@@ -160,7 +170,7 @@ std::string nuke_script(const Handoff& handoff) {
                   "true\n name write\n",
                   tcl_path(handoff.shot.name + ".nuke.####.exr"),
                   handoff.shot.output.image.type == PixelType::Half ? "\"16 bit half\"" : "\"32 bit float\""),
-              {2 * column - 2, below + 2});
+              {2 * column - 2, below + 3});
 }
 
 }  // namespace lensplane

@@ -74,6 +74,15 @@ void add_layer(const Handoff& handoff, const HandedLayer& layer, std::size_t fra
   add(words, {map, "--ch", "R=B,G=B,B=B,A=B", "--origin", "+0+0", "--fullsize", size, "--mul"});
 }
 
+/// Where light ends the picture is opaque; it is black there already.
+void add_shadow(const Handoff& handoff, std::size_t frame, Words& words) {
+  if (handoff.shadow.empty()) return;
+  const FullSize full = full_size(handoff.shot.camera);
+  add(words,
+      {path_of_frame(handoff.shadow, handoff.frames[frame]), "--ch", "R=0,G=0,B=0,A=A", "--origin", "+0+0",
+       "--fullsize", size_text(full.width, full.height), "--add", "--clamp:max=3e38,3e38,3e38,1"});
+}
+
 Words command_of(const Handoff& handoff, std::size_t frame, const std::string& output) {
   const CameraTrack& camera = handoff.shot.camera;
   const FullSize full = full_size(camera);
@@ -85,6 +94,7 @@ Words command_of(const Handoff& handoff, std::size_t frame, const std::string& o
     add_layer(handoff, layer, frame, words);
     add(words, {"--swap", "--over"});
   }
+  add_shadow(handoff, frame, words);
   const int overscan = camera.overscan.value_or(0);
   add(words, {"--origin", fmt::format("{:+}{:+}", -overscan, -overscan), "--fullsize",
               size_text(camera.width, camera.height), "--eraseattrib", ".*", "--nosoftwareattrib"});

@@ -33,6 +33,7 @@ struct MapJacobian {
 struct MapData {
   std::optional<MapJacobian> jacobian;
   std::vector<float> depth;  // metres along the ray, the largest float at infinity; empty when there is none
+  std::vector<float> alpha;  // A, which the file of the shadow has; empty when there is none
 };
 
 /// Reads s from R, t from G, coverage from B, without B (or where B is 0 everywhere though s or t is not)
@@ -41,7 +42,7 @@ struct MapData {
 /// names the path when the file is missing, broken, no map, or one of whole numbers.
 StMap read_st_map(const std::filesystem::path& path, std::optional<StOrigin> origin = std::nullopt);
 
-/// Reads what there is of a data file's jacobian.* and depth.z. Throws Failure (BadInput) also when its
+/// Reads what there is of a data file's jacobian.*, depth.z and A. Throws Failure (BadInput) also when its
 /// windows are not those of `map`.
 MapData read_map_data(const std::filesystem::path& path, const StMap& map);
 

@@ -121,6 +121,7 @@ MapData read_map_data(const std::filesystem::path& path, const StMap& map) {
                      !jacobian.dt_dy.empty();
   if (whole) data.jacobian = std::move(jacobian);
   data.depth = file.read("depth.z");
+  data.alpha = file.read("A");
   return data;
 }
 

@@ -2,6 +2,8 @@
 
 #include "pipeline/sequence/frame_setup.h"
 
+#include <algorithm>
+
 #include "pipeline/image/display_writer.h"
 #include "pipeline/sequence/fingerprint.h"
 #include "pipeline/sequence/map_layers.h"
@@ -70,6 +72,7 @@ std::string fingerprint_of_picture(const Shot& shot, const ColourConfig& colours
       .add(static_cast<double>(shot.output.image.compression));
   for (std::size_t k = 0; k < shot.layers.size(); ++k) print.add(textures.digest(k, frame));
   for (const Moment& moment : moments_of(shot, frame)) add_moment(shot, moment, print);
+  if (!shot.lenses.empty()) print.add("shadow").add(static_cast<double>(shot.trace.shadow));
   if (const auto glow = glow_at(shot, frame)) print.add("glow").add(glow->strength).add(glow->radius_px);
   return print.digest();
 }
@@ -118,6 +121,8 @@ FrameSetup set_up_trace(const Shot& shot, const ColourConfig& colours, int frame
   settings.effects = {};
   setup.plan = plan_trace(setup.scene, settings);
   setup.map_header = header(setup.plan, fingerprint_of_map(shot, colours, setup.scene, setup.plan));
+  setup.shadow_header = setup.map_header;
+  setup.shadow_header.parameters = Fingerprint().add(setup.map_header.parameters).add("shadow").digest();
   return setup;
 }
 
@@ -133,6 +138,10 @@ FrameSetup set_up_frame(const Shot& shot, const ColourConfig& colours, TextureSt
     if (!shot.output.data.any()) continue;
     if (tasks.redo || !exr_is_done(data_path(shot, layer, frame), setup.data_header)) setup.data.push_back(k);
   }
+  const bool any_map =
+      std::find(shot.output.maps.begin(), shot.output.maps.end(), true) != shot.output.maps.end();
+  setup.shadow = tasks.maps && any_map && !shot.lenses.empty() &&
+                 (tasks.redo || !exr_is_done(shadow_path(shot, frame), setup.shadow_header));
   if (!tasks.picture) return setup;
   setup.picture_header = common_header(shot, colours, frame, setup.scene, setup.plan);
   setup.picture_header.colour_interop = colours.interop_id(shot.colour.working.text);

@@ -31,10 +31,12 @@ struct FrameSetup {
   Plan data_plan;  // of the data files, where the shot asks for them: what they hold beside
   ExrHeader map_header;
   ExrHeader data_header;
+  ExrHeader shadow_header;
   ExrHeader picture_header;
   std::string review_parameters;
   std::vector<std::size_t> maps;  // layers whose maps are wanted and not there, ascending
   std::vector<std::size_t> data;  // the same for their data files
+  bool shadow = false;            // whether the file of where light ends is wanted and not there
   bool picture = false;           // whether picture or review are wanted and not there
 };
 

@@ -14,6 +14,7 @@
 #include "pipeline/sequence/shutter.h"
 #include "pipeline/sequence/side_by_side.h"
 #include "pipeline/shot/shot_scene.h"
+#include "src/map_channels.h"
 
 namespace lensplane {
 namespace {
@@ -76,8 +77,9 @@ Composite take_exposure(const Shot& shot, ShotAssets& assets, int frame, const F
   return exposure;
 }
 
-void write_picture(const Shot& shot, int frame, const FrameSetup& setup, const Picture& picture,
+void write_picture(const Shot& shot, int frame, const FrameSetup& setup, const ShadowedPicture& result,
                    FrameReport& report) {
+  const Picture& picture = result.picture;
   ExrHeader header = setup.picture_header;
   header.amplification = text_from_amplifications(report.amplifications);
   const Camera& camera = setup.scene.camera;
@@ -85,6 +87,7 @@ void write_picture(const Shot& shot, int frame, const FrameSetup& setup, const P
   for (const char* name : {"R", "G", "B", "A"}) {
     channels.push_back({name, picture.pixels.front().data() + channels.size(), 4});
   }
+  if (!shot.lenses.empty()) channels.push_back({std::string(kShadowChannel), result.shadow.data()});
   report[Phase::Write].bytes += timed(report[Phase::Write].seconds, [&] {
     return write_exr(picture_path(shot, frame), {camera.width, camera.height, camera.overscan}, channels,
                      shot.output.image, header);
@@ -107,22 +110,24 @@ std::vector<SurfaceLook> load_picture(const Shot& shot, ShotAssets& assets, int 
 void make_picture(const Shot& shot, const ColourConfig& colours, ShotAssets& assets, int frame,
                   const FrameTasks& tasks, const FrameSetup& setup, const std::vector<SurfaceLook>& looks,
                   const EmptySpace& empty, FrameReport& report) {
-  Picture picture;
+  ShadowedPicture result;
+  Picture& picture = result.picture;
   if (tasks.from_maps) {
-    picture = picture_from_maps(shot, assets, frame, setup, looks, report);
+    result = picture_from_maps(shot, assets, frame, setup, looks, report);
   } else {
     Composite exposure = take_exposure(shot, assets, frame, setup, empty, report);
     report.amplifications =
         timed(report[Phase::Trace].seconds, [&] { return amplifications_of(shot, frame, exposure.hits); });
-    picture = std::move(exposure.picture);
+    result = {std::move(exposure.picture), std::move(exposure.shadow)};
   }
+  if (shot.trace.shadow == HoleShadow::Opaque) blacken_shadow(result);
   report_images(shot, assets.textures, frame, looks, report);
   report[Phase::Composite].bytes += picture.pixels.size() * sizeof(Rgba);
   if (const auto glow = glow_at(shot, frame)) {
     picture = timed(report[Phase::Composite].seconds, [&] { return with_glow(picture, *glow); });
   }
   FrameReport of_review;
-  side_by_side([&] { write_picture(shot, frame, setup, picture, report); },
+  side_by_side([&] { write_picture(shot, frame, setup, result, report); },
                [&] {
                  if (shot.output.review) make_review(shot, colours, frame, setup, picture, looks, of_review);
                });

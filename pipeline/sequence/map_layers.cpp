@@ -16,14 +16,27 @@
 namespace lensplane {
 namespace {
 
-std::filesystem::path existing_map(const Shot& shot, const Layer& layer, int frame) {
-  const std::filesystem::path path = map_path(shot, layer.name, frame);
+std::filesystem::path existing(const Shot& shot, const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
     throw Failure(ExitCode::BadInput,
                   fmt::format("{}: no such map; lensplane map {} makes it", path.string(), shot.file));
   }
   return path;
+}
+
+std::filesystem::path existing_map(const Shot& shot, const Layer& layer, int frame) {
+  return existing(shot, map_path(shot, layer.name, frame));
+}
+
+std::filesystem::path existing_shadow(const Shot& shot, int frame) {
+  return existing(shot, shadow_path(shot, frame));
+}
+
+/// Whether any layer has a map: stars have none.
+bool has_maps(const Shot& shot) {
+  return std::any_of(shot.layers.begin(), shot.layers.end(),
+                     [](const Layer& layer) { return !std::holds_alternative<StarsLayer>(layer.kind); });
 }
 
 StMap read_map_of(const Camera& camera, const std::filesystem::path& path) {
@@ -94,6 +107,13 @@ std::vector<MapLayer> load_map_layers(const Shot& shot, const Scene& scene,
   return layers;
 }
 
+std::vector<float> load_shadow(const Shot& shot, const std::vector<MapLayer>& layers, int frame) {
+  if (layers.empty() || shot.lenses.empty()) return {};
+  std::vector<float> shadow = read_map_data(existing_shadow(shot, frame), layers.front().map).alpha;
+  for (float& share : shadow) share = share > 0 ? std::min(share, 1.0F) : 0.0F;  // no number: 0
+  return shadow;
+}
+
 std::string digest_of_maps(const Shot& shot, int frame) {
   Fingerprint print;
   for (const Layer& layer : shot.layers) {
@@ -102,6 +122,7 @@ std::string digest_of_maps(const Shot& shot, int frame) {
     print.add_file(path);
     if (const auto data_file = data_file_beside(path)) print.add("data").add_file(*data_file);
   }
+  if (!shot.lenses.empty() && has_maps(shot)) print.add("shadow").add_file(existing_shadow(shot, frame));
   return print.digest();
 }
 

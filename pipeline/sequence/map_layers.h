@@ -26,6 +26,10 @@ std::vector<std::size_t> depth_order(const Shot& shot, int frame);
 std::vector<MapLayer> load_map_layers(const Shot& shot, const Scene& scene,
                                       const std::vector<SurfaceLook>& looks, int frame);
 
+/// Which share of every pixel's light ends in masses, by its own file beside those maps; empty without lenses
+/// and without `layers`. Throws Failure (BadInput) when the file is missing, broken, or has other windows.
+std::vector<float> load_shadow(const Shot& shot, const std::vector<MapLayer>& layers, int frame);
+
 /// A hash of the contents of these files. Throws Failure (BadInput) when a map is missing.
 std::string digest_of_maps(const Shot& shot, int frame);
 

@@ -36,19 +36,27 @@ void add_stars_to_maps(const Shot& shot, ShotAssets& assets, int frame, const Tr
 
 }  // namespace
 
-Picture picture_from_maps(const Shot& shot, ShotAssets& assets, int frame, const FrameSetup& setup,
-                          const std::vector<SurfaceLook>& looks, FrameReport& report) {
-  std::vector<MapLayer> layers =
-      timed(report[Phase::Load].seconds, [&] { return load_map_layers(shot, setup.scene, looks, frame); });
+ShadowedPicture picture_from_maps(const Shot& shot, ShotAssets& assets, int frame, const FrameSetup& setup,
+                                  const std::vector<SurfaceLook>& looks, FrameReport& report) {
+  std::vector<float> shadow;
+  std::vector<MapLayer> layers = timed(report[Phase::Load].seconds, [&] {
+    std::vector<MapLayer> loaded = load_map_layers(shot, setup.scene, looks, frame);
+    shadow = load_shadow(shot, loaded, frame);
+    return loaded;
+  });
   return timed(report[Phase::Composite].seconds, [&] {
-    Picture picture = blank_picture(setup.scene.camera);
+    ShadowedPicture result{blank_picture(setup.scene.camera), std::move(shadow)};
+    Picture& picture = result.picture;
     if (!layers.empty()) picture = composite_from_maps(layers);
-    if (!has_stars(shot)) return picture;
+    result.shadow.resize(picture.pixels.size(), 0.0F);
+    for (std::size_t i = 0; i < result.shadow.size(); ++i)
+      result.shadow[i] = std::min(result.shadow[i], std::max(0.0F, 1.0F - picture.pixels[i][3]));
+    if (!has_stars(shot)) return result;
     std::erase_if(layers, [](const MapLayer& l) { return std::holds_alternative<LatLong>(l.surface); });
     Picture cover = blank_picture(setup.scene.camera);
     if (!layers.empty()) cover = composite_from_maps(layers);
     add_stars_to_maps(shot, assets, frame, Tracer(setup.scene, setup.plan), cover, picture);
-    return picture;
+    return result;
   });
 }
 

@@ -18,6 +18,10 @@ std::filesystem::path data_path(const Shot& shot, const std::string& layer, int 
   return shot.output.directory / fmt::format("{}.{}.data.{:04}.exr", shot.name, layer, frame);
 }
 
+std::filesystem::path shadow_path(const Shot& shot, int frame) {
+  return shot.output.directory / fmt::format("{}.shadow.{:04}.exr", shot.name, frame);
+}
+
 std::filesystem::path plate_path(const Shot& shot, const std::string& layer, int frame) {
   return shot.output.directory / fmt::format("{}.{}.plate.{:04}.exr", shot.name, layer, frame);
 }

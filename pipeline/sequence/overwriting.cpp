@@ -28,6 +28,7 @@ std::set<std::string> outputs_of(const Shot& shot, const std::vector<int>& frame
   for (const int frame : frames) {
     outputs.insert(picture_path(here, frame).string());
     outputs.insert(review_path(here, frame).string());
+    outputs.insert(shadow_path(here, frame).string());
     for (const Layer& layer : shot.layers) {
       outputs.insert(map_path(here, layer.name, frame).string());
       outputs.insert(data_path(here, layer.name, frame).string());

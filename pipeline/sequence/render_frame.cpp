@@ -14,7 +14,7 @@ FrameReport render_frame(const Shot& shot, const ColourConfig& colours, ShotAsse
   report.frame = frame;
   timed(report.seconds, [&] {
     const FrameSetup setup = set_up_frame(shot, colours, assets.textures, frame, tasks);
-    const bool maps_done = setup.maps.empty() && setup.data.empty();
+    const bool maps_done = setup.maps.empty() && setup.data.empty() && !setup.shadow;
     report.already_done = maps_done && !setup.picture;
     FrameReport of_maps;
     EmptySpace empty;

@@ -180,12 +180,16 @@ struct ColourSettings {
   std::optional<GradeSettings> grade;
 };
 
+/// What the picture is where light ends in a mass: black, or nothing.
+enum class HoleShadow { Opaque, Transparent };
+
 /// What the shot asks of the trace; see trace_at.
 struct TraceTrack {
   Method method = Method::Planes;
   std::optional<Law> law;  // nothing: as the tolerance needs it
   Keyed<double> tolerance_px = Keyed<double>::constant(TraceSettings().tolerance_px);
   Choice finite_distance = Choice::Auto;
+  HoleShadow shadow = HoleShadow::Opaque;
 };
 
 /// How finely a pixel of the picture is sampled.

@@ -60,11 +60,15 @@ Choice read_finite_distance(const Value& value, Method method, Projection projec
 TraceTrack read_trace(const std::optional<Value>& trace, Projection projection) {
   TraceTrack track;
   if (!trace) return track;
-  trace->only_keys({"method", "law", "tolerance", "effects"});
+  trace->only_keys({"method", "law", "tolerance", "effects", "shadow"});
   if (const auto method = trace->find("method")) track.method = read_method(*method);
   if (const auto law = trace->find("law")) track.law = read_law(*law, track.method);
   if (const auto tolerance = trace->find("tolerance"))
     track.tolerance_px = read_keyed_positive(*tolerance, Dimension::Pixels);
+  if (const auto shadow = trace->find("shadow")) {
+    constexpr std::array<std::string_view, 2> kNames = {"opaque", "transparent"};
+    track.shadow = static_cast<HoleShadow>(shadow->choice(kNames));
+  }
   const auto effects = trace->find("effects");
   if (!effects) return track;
   effects->only_keys({"finite_distance"});

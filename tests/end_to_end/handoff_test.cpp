@@ -51,6 +51,11 @@ void write_smooth(const std::filesystem::path& file, int width, int height, bool
   ASSERT_TRUE(image.write(file.string())) << image.geterror();
 }
 
+/// The alpha of a smooth picture that fills the frame, at a column of the frame.
+double veil_alpha(int column) {
+  return 0.3 + 0.4 * (column + 0.5) / kWidth;
+}
+
 /// A mass, a plate behind it, a card that is half transparent, and a globe in front; the globe goes behind
 /// the card at frame 2.
 struct HandedShot {
@@ -111,9 +116,9 @@ Difference difference(const std::filesystem::path& ours, const std::filesystem::
   return {differ / pixels, sum / (4 * pixels)};
 }
 
-void run_commands(const HandedShot& shot) {
+void run_commands(const HandedShot& shot, std::size_t frames = 2) {
   const auto list = nlohmann::json::parse(contents_of(shot.out("hand.oiio.json")));
-  ASSERT_EQ(list["frames"].size(), 2);
+  ASSERT_EQ(list["frames"].size(), frames);
   for (const auto& frame : list["frames"]) {
     for (const auto& command : frame["commands"]) {
       std::vector<std::string> words = {"env", "-C", shot.out("").string()};
@@ -246,10 +251,11 @@ TEST(Handoff, NukeLaysLayersOverOneAnotherByTheirMaps) {
   EXPECT_EQ(exported.exit_code, 0) << exported.err;
   const auto nodes = read_nuke(contents_of(shot.out("hand.nk")));
   // Input 0 of STMap is the image; of a merge it is B, what lies below, and what a mask keeps.
-  EXPECT_EQ(graph_of(nodes),
-            "Write(over(mask(STMap(image_bg, Expression(map_bg)), Shuffle(map_bg)), "
-            "over(mask(STMap(BlackOutside(Premult(image_veil)), map_veil), Shuffle(map_veil)), "
-            "mask(STMap(image_globe, map_globe), Shuffle(map_globe)))))");
+  EXPECT_EQ(
+      graph_of(nodes),
+      "Write(Clamp(plus(Shuffle(shadow), over(mask(STMap(image_bg, Expression(map_bg)), Shuffle(map_bg)), "
+      "over(mask(STMap(BlackOutside(Premult(image_veil)), map_veil), Shuffle(map_veil)), "
+      "mask(STMap(image_globe, map_globe), Shuffle(map_globe)))))))");
   for (const NukeNode& node : nodes) {
     if (node.kind == "Root") {
       EXPECT_EQ(node.knobs.at("project_directory"), "\"\\[python \\{nuke.script_directory()\\}]\"");
@@ -260,7 +266,7 @@ TEST(Handoff, NukeLaysLayersOverOneAnotherByTheirMaps) {
       EXPECT_EQ(node.knobs.at("channels") + " " + node.knobs.at("uv"), "rgba rgb");
     }
     if (node.kind != "Read") continue;
-    const bool is_map = node.knobs.at("name").starts_with("map_");
+    const bool is_map = node.knobs.at("name").starts_with("map_") || node.knobs.at("name") == "shadow";
     EXPECT_EQ(node.knobs.contains("raw"), is_map);
     EXPECT_EQ(node.knobs.contains("auto_alpha"), !is_map && node.knobs.at("name") != "image_veil");
     if (node.knobs.at("name") == "map_bg") {
@@ -268,6 +274,49 @@ TEST(Handoff, NukeLaysLayersOverOneAnotherByTheirMaps) {
     }
     if (node.knobs.at("name") == "image_bg") {
       EXPECT_EQ(node.knobs.at("file"), "\"../bg.exr\"");
+    }
+  }
+}
+
+TEST(Handoff, ShadowsAreAsOpaqueAsInOurPicture) {
+  const HandedShot shot;
+  struct Case {
+    const char *shadow, *veil;  // the half-transparent card stands before the hole, or behind it
+    float alpha;
+  };
+  for (const Case& c :
+       {Case{"opaque", "6e11 m", 1}, Case{"opaque", "4e11 m", 1}, Case{"transparent", "6e11 m", 0}}) {
+    SCOPED_TRACE(std::string(c.shadow) + " " + c.veil);
+    // Without an opaque background, so that alpha tells; the shadow has a radius of 10 pixels.
+    const std::vector<std::string> settings = {"--set", "lenses.hole.mass=500000 Msun",
+                                               "--set", "layers.bg.image=veil.png",
+                                               "-f",    "1",
+                                               "--set", std::string("trace.shadow=") + c.shadow,
+                                               "--set", std::string("layers.veil.distance=") + c.veil};
+    const auto run = [&](const char* command, std::vector<std::string> more) {
+      more.insert(more.end(), settings.begin(), settings.end());
+      ASSERT_EQ(shot.run(command, more).err, "");
+    };
+    run("render", {"--quiet"});
+    const OIIO::ImageBuf rendered = read_picture(shot.out("hand.0001.exr"));
+    run("comp", {"--quiet"});
+    run("export", {"--to", "oiio"});
+    run_commands(shot, 1);
+    const OIIO::ImageBuf composed = read_picture(shot.out("hand.0001.exr")),
+                         theirs = read_picture(shot.out("hand.oiio.0001.exr"));
+    const int x = 59, y = 26;
+    for (const OIIO::ImageBuf* picture : {&rendered, &composed, &theirs})
+      EXPECT_NEAR(picture->getchannel(x, y, 0, 3), c.alpha, 1e-6);
+    for (const OIIO::ImageBuf* picture : {&rendered, &composed}) {
+      ASSERT_EQ(picture->spec().channelindex("lensing.shadow"), 4);
+      const bool covered = c.veil == std::string("4e11 m");
+      EXPECT_NEAR(picture->getchannel(x, y, 0, 4), covered ? 1 - veil_alpha(x) : 1, 0.01);
+      double most = 0;
+      for (int row = 0; row < kHeight; ++row) {
+        for (int column = 0; column < kWidth; ++column)
+          most = std::max<double>(most, picture->getchannel(column, row, 0, 3));
+      }
+      EXPECT_LE(most, 1 + 1e-6);
     }
   }
 }

@@ -215,7 +215,8 @@ TEST(SphereReach, TracersFindWhatSingleRaysFind) {
     const Sight sight{scene.camera, tracer.surfaces(), plan.effects, slope_per_pixel(scene.camera),
                       &plan.recipes.back()};
     for (std::size_t i = 0; i < kBatchSize; ++i) {
-      const auto single = trace_ray<double>(sight, plan, plan.recipes.size() - 1, {film.x[i], film.y[i]});
+      const auto single =
+          trace_ray<double>(sight, plan, plan.recipes.size() - 1, {film.x[i], film.y[i]}).hits;
       for (std::size_t k = 0; k < 3; ++k) {
         ASSERT_EQ(batch.surfaces[k].outcome[i], single[k].outcome) << n << " " << i << " " << k;
         hits += single[k].outcome == Outcome::Hit ? 1 : 0;

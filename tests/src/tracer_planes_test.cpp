@@ -122,7 +122,8 @@ Tally compare(const Scene& scene, const TraceSettings& settings) {
     for (int i = 0; i < kBatchSize; ++i) {
       const FilmPosition at{film.x[i], film.y[i]};
       if (!sees(scene.camera, at)) continue;
-      const auto expected = trace_ray<Dual>(sight, plan, plan.recipes.size() - 1, at);
+      const auto [expected, captured] = trace_ray<Dual>(sight, plan, plan.recipes.size() - 1, at);
+      EXPECT_EQ(batch.captured[i], captured ? 1.0 : 0.0);
       for (std::size_t k = 0; k < expected.size(); ++k) {
         SCOPED_TRACE(testing::Message() << "surface " << k << " at " << at.x << ", " << at.y);
         expect_same(batch.surfaces[k], i, expected[k], plan.effects, scene.camera.axes, tally);

@@ -194,7 +194,8 @@ TEST(Compositor, StarsShineThroughWhatIsHalfTransparent) {
 
 TEST(Compositor, MeansOfSeveralAddUpAndScale) {
   const auto of = [](const Rgba& colour, double hits, std::int64_t rays, std::int64_t refined) {
-    return Composite{Picture{1, 2, 0, 0, 1, 2, {colour, {1, 2, 3, 1}}}, {hits, 1}, rays, refined};
+    return Composite{
+        {Picture{1, 2, 0, 0, 1, 2, {colour, {1, 2, 3, 1}}}, {colour[3], 0}}, {hits, 1}, rays, refined};
   };
   Composite sum = of({0.2F, 0.4F, 0.6F, 1}, 3, 100, 7);
   add(of({0.6F, 0, 0.2F, 0.5F}, 5, 50, 2), sum);
@@ -204,6 +205,7 @@ TEST(Compositor, MeansOfSeveralAddUpAndScale) {
   expect_colour(sum.picture.pixels[0], {0.4F, 0.2F, 0.4F, 0.75F});
   expect_colour(sum.picture.pixels[1], {1, 2, 3, 1});
   EXPECT_EQ(sum.hits, (std::vector<double>{4, 1}));
+  EXPECT_EQ(sum.shadow, (std::vector<float>{0.75F, 0}));
   EXPECT_EQ(sum.rays, 150);  // what was spent stays spent
   EXPECT_EQ(sum.refined, 9);
 }

@@ -41,8 +41,8 @@ TEST(EdgePixel, IsTheMeanOfItsRays) {
 TEST(EdgePixel, RaysThatDoNotCountAreThereForTheErrorAlone) {
   EdgePixel pixel(0, 0, PixelKind::Curved, 2), none(0, 0, PixelKind::Curved, 2);
   for (int n = 0; n < 16; ++n) {
-    pixel.add(n < 4 ? kOneMissed : kNear, grey(n < 4 ? 1 : 0.5F), n >= 4);
-    none.add(kNear, grey(n < 8 ? 1 : 0), false);
+    pixel.add(n < 4 ? kOneMissed : kNear, grey(n < 4 ? 1 : 0.5F), 0, n >= 4);
+    none.add(kNear, grey(n < 8 ? 1 : 0), 0, false);
   }
   EXPECT_EQ(pixel.mean(), grey(0.5F));
   EXPECT_EQ(pixel.share_of(1), 1);

@@ -37,8 +37,9 @@ TEST(EmptySpace, KnowsWhatMapsHaveSeenAndNoMore) {
   EmptySpace empty(camera);  // 5 x 4 pixels from (-1, -1)
   EXPECT_EQ(empty.known_of(batch_of(0.5, 0.5, 1.5, 0.5)), Known::Nothing);
   // Two surfaces, of rows 1 and 2: one is met at (0, 0), the other at (2, 1).
-  empty.learn({map_of(5, {0, 1, 0, 0, 0, 0, 0, 0, 0, 0}), map_of(5, {0, 0, 0, 0, 0, 0, 0, 0, 1, 0})}, 0,
-              {1, 3});
+  empty.learn(
+      std::vector{map_of(5, {0, 1, 0, 0, 0, 0, 0, 0, 0, 0}), map_of(5, {0, 0, 0, 0, 0, 0, 0, 0, 1, 0})}, 0,
+      {1, 3});
   EXPECT_EQ(empty.known_of(batch_of(0.5, 0.5, 1.5, 0.5)), Known::MeetsSomething);
   EXPECT_EQ(empty.known_of(batch_of(1.5, 0.5, 2.5, 1.5)), Known::MeetsSomething);
   EXPECT_EQ(empty.known_of(batch_of(1.5, 0.5, 1.5, 1.5)), Known::MeetsNothing);

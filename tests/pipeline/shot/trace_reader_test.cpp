@@ -32,6 +32,7 @@ TEST(TraceReader, WhatIsLeftOutIsPlanesAsTheToleranceNeedsIt) {
     EXPECT_FALSE(trace.law) << left_out;
     EXPECT_EQ(value_at(trace.tolerance_px, 1001), 0.05) << left_out;
     EXPECT_EQ(trace.finite_distance, Choice::Auto) << left_out;
+    EXPECT_EQ(trace.shadow, HoleShadow::Opaque) << left_out;
   }
 }
 
@@ -50,12 +51,14 @@ TEST(TraceReader, ReadsToleranceAndEffects) {
   EXPECT_EQ(trace_of("{effects: {finite_distance: on}}").finite_distance, Choice::On);
   EXPECT_EQ(trace_of("{effects: {finite_distance: off}}").finite_distance, Choice::Off);
   EXPECT_EQ(trace_of("{effects: {finite_distance: auto}}").finite_distance, Choice::Auto);
+  EXPECT_EQ(trace_of("{shadow: transparent}").shadow, HoleShadow::Transparent);
   EXPECT_EQ(trace_of("{effects: {}}").finite_distance, Choice::Auto);
 }
 
 TEST(TraceReader, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(line_for("{method: newton}"),
             "trace.method: \"newton\"; allowed: kishi, shinotsuka-makino, planes, geodesic");
+  EXPECT_EQ(line_for("{shadow: black}"), "trace.shadow: \"black\"; allowed: opaque, transparent");
   EXPECT_EQ(line_for("{law: strong}"), "trace.law: \"strong\"; allowed: weak, second-order, exact, auto");
   EXPECT_EQ(line_for("{tolerance: 0 px}"), "trace.tolerance: \"0 px\" is not greater than 0");
   EXPECT_EQ(line_for("{tolerance: -1 px}"), "trace.tolerance: \"-1 px\" is not greater than 0");
@@ -64,7 +67,7 @@ TEST(TraceReader, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(line_for("{tolerance: 1 deg}"),
             "trace.tolerance: \"1 deg\" is an angle; a number of pixels is needed, in px");
   EXPECT_EQ(line_for("{accuracy: 1 px}"),
-            "trace.accuracy: unknown key; allowed: method, law, tolerance, effects");
+            "trace.accuracy: unknown key; allowed: method, law, tolerance, effects, shadow");
   EXPECT_EQ(line_for("{effects: {gravity: on}}"),
             "trace.effects.gravity: unknown key; allowed: finite_distance");
   EXPECT_EQ(line_for("{effects: {finite_distance: maybe}}"),
