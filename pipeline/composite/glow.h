@@ -9,18 +9,22 @@
 // each about 1.4 times as wide as the one before, with weights that add up to 1: the picture is halved again
 // and again, blurred at every size, and added up on the way back. How well they follow P is kGlowError.
 //
-// No light is gained or lost but what spreads beyond the data window; nothing comes in from there: the
-// overscan is what light from outside the frame is taken from.
+// What lies outside of the data window is as bright as its edge: the overscan is what light from outside the
+// frame is taken from, where there is some. A lat-long picture goes on round the sphere and over its poles,
+// the circle of a fisheye as bright as its rim; outside of it there stays nothing. So what is bright alike
+// everywhere stays so.
 
 #pragma once
 
 #include "pipeline/image/picture.h"
+#include "src/scene.h"
 
 namespace lensplane {
 
 struct Glow {
-  double strength = 0;   // share of the light that is scattered, 0 to 1
-  double radius_px = 0;  // radius of the circle that holds half of it, > 0
+  double strength = 0;                              // share of the light that is scattered, 0 to 1
+  double radius_px = 0;                             // radius of the circle that holds half of it, > 0
+  Projection projection = Projection::Perspective;  // of the camera
 };
 
 /// The largest relative error of the point-spread within 30 radii, from a radius of 10 pixels on.

@@ -73,7 +73,7 @@ std::string fingerprint_of_picture(const Shot& shot, const ColourConfig& colours
   for (std::size_t k = 0; k < shot.layers.size(); ++k) print.add(textures.digest(k, frame));
   for (const Moment& moment : moments_of(shot, frame)) add_moment(shot, moment, print);
   if (!shot.lenses.empty()) print.add("shadow").add(static_cast<double>(shot.trace.shadow));
-  if (const auto glow = glow_at(shot, frame)) print.add("glow").add(glow->strength).add(glow->radius_px);
+  if (const auto glow = glow_at(shot, frame)) print.add("veil").add(glow->strength).add(glow->radius_px);
   return print.digest();
 }
 
