@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "pipeline/composite/compositor.h"
 #include "pipeline/composite/sphere_coverage.h"
@@ -168,6 +170,44 @@ TEST(ThinBodies, ManySmallSpheresHaveTheLightOfAll) {
   view.scene.surfaces = {view.sphere({0.3, 0.4, 0}, 0.3), view.sphere({0.3, 0.4, 0}, 0.3)};
   EXPECT_NEAR(sum_of(take(view.scene, {{flat(kWhite)}, {flat(kWhite)}}).picture, 3) / disc(0.3), 1,
               kLightError);
+}
+
+/// Pixels of the film in which rays meet the first surface, by `density` x `density` rays a pixel.
+double area_by_rays(const Tracer& tracer, int density) {
+  TraceBatch batch = tracer.make_batch();
+  const int width = tracer.camera().width * density, height = tracer.camera().height * density;
+  std::int64_t hits = 0;
+  for (int row = 0; row < height; ++row) {
+    for (int first = 0; first < width; first += kBatchSize) {
+      const int count = std::min(kBatchSize, width - first);
+      for (int i = 0; i < kBatchSize; ++i) {
+        batch.x[i] = (first + std::min(i, count - 1) + 0.5) / density;
+        batch.y[i] = (row + 0.5) / density;
+      }
+      tracer.trace(batch);
+      const auto& outcomes = batch.surfaces[0].outcome;
+      hits += std::count(outcomes.begin(), outcomes.begin() + count, Outcome::Hit);
+    }
+  }
+  return static_cast<double>(hits) / (density * density);
+}
+
+TEST(ThinBodies, RingsBehindALensHaveTheLightOfVeryManyRays) {
+  for (const double beside : {0.3, 12.0}) {  // round the lens, and across it
+    for (const double tilt : {kPi / 2, 0.5}) {
+      View view(80, 80);
+      Ring ring = view.ring({beside, 0.4, 0}, 13.7, 14, tilt);
+      view.scene.surfaces = {ring};
+      const double einstein = 12 * slope_per_pixel(view.scene.camera);
+      const Vec3 lens = view.at(0.3, 0.2) * 0.5;
+      view.scene.lenses = {{einstein * einstein * kFar / 4, lens}};
+      const Tracer tracer(view.scene, plan_trace(view.scene, Method::Planes));
+      const double expected = area_by_rays(tracer.without_passes(), 16);
+      EXPECT_NEAR(sum_of(take(view.scene, {{flat(kWhite)}}).picture, 3) / expected, 1, kLightError)
+          << beside << ' ' << tilt;
+      EXPECT_GT(std::abs(expected / ((disc(14) - disc(13.7)) * std::sin(tilt)) - 1), 0.05);  // it is lensed
+    }
+  }
 }
 
 TEST(ThinBodies, OnPanoramicFilmsAreAsLargeAsTheFilmMakesThem) {
