@@ -11,10 +11,13 @@
 #include <optional>
 #include <utility>
 
+#include "pipeline/composite/capture_mask.h"
 #include "pipeline/composite/edge_finder.h"
 #include "pipeline/composite/edge_pixel.h"
+#include "pipeline/composite/ray_batches.h"
+#include "pipeline/composite/rim_looker.h"
+#include "pipeline/composite/sparse_tracer.h"
 #include "pipeline/composite/thin_light.h"
-#include "src/bodies.h"
 
 namespace lensplane {
 namespace {
@@ -38,60 +41,6 @@ float uncovered(const Rgba& seen) {
   return std::max(0.0F, 1.0F - seen[3]);
 }
 
-/// What became of a batch: its rays were traced and may meet something; they meet nothing; or that was known
-/// before, and no ray was traced.
-enum class Found { Something, Nothing, NothingNew };
-
-/// Traces batches of pixel centres of which most may meet nothing: those that are known to are left out;
-/// where nothing is known, plain rays go first after a batch that met nothing, and are enough for another.
-class SparseTracer {
- public:
-  SparseTracer(const Tracer& tracer, const EmptySpace& empty)
-      : tracer_(tracer), empty_(empty), plain_(tracer.without_passes()), plain_batch_(plain_.make_batch()) {
-    all_bodies_ = std::all_of(tracer.surfaces().begin(), tracer.surfaces().end(), is_body);
-  }
-
-  /// To be called before the batches of another place, so that no place's depend on those of another.
-  void begin() { last_met_nothing_ = false; }
-
-  /// The batch is written when there is something in it.
-  Found trace(TraceBatch& batch) {
-    const EmptySpace::Known known = empty_.known_of(batch);
-    if (known == EmptySpace::Known::MeetsNothing) return Found::NothingNew;
-    if (known == EmptySpace::Known::Nothing && all_bodies_ && last_met_nothing_ &&
-        plain_rays_meet_nothing(batch))
-      return Found::Nothing;
-    tracer_.trace(batch);
-    last_met_nothing_ = meets_nothing(batch);
-    return last_met_nothing_ ? Found::Nothing : Found::Something;
-  }
-
- private:
-  static bool meets_nothing(const TraceBatch& batch) {
-    const bool any_captured =
-        std::any_of(batch.captured, batch.captured + kBatchSize, [](double c) { return c != 0; });
-    return !any_captured &&
-           std::none_of(batch.surfaces.begin(), batch.surfaces.end(), [](const SurfaceBatch& surface) {
-             return std::find(surface.outcome.begin(), surface.outcome.end(), Outcome::Hit) !=
-                    surface.outcome.end();
-           });
-  }
-
-  bool plain_rays_meet_nothing(const TraceBatch& batch) {
-    std::copy_n(batch.x, kBatchSize, plain_batch_.x);
-    std::copy_n(batch.y, kBatchSize, plain_batch_.y);
-    plain_.trace(plain_batch_);
-    return meets_nothing(plain_batch_);
-  }
-
-  const Tracer& tracer_;
-  const EmptySpace& empty_;
-  Tracer plain_;
-  TraceBatch plain_batch_;
-  bool all_bodies_ = false;  // nothing lies at infinity, where every ray meets it
-  bool last_met_nothing_ = false;
-};
-
 /// Traces and looks at one tile at a time; one for each thread.
 class TileTaker {
  public:
@@ -102,6 +51,7 @@ class TileTaker {
         thin_(thin),
         viewer_(tracer.surfaces(), looks),
         sparse_(tracer, empty),
+        rims_(tracer, sampling, viewer_),
         batch_(tracer.make_batch()),
         points_(tracer.surfaces().size()) {}
 
@@ -112,7 +62,9 @@ class TileTaker {
     std::optional<CentreGrid> grid = trace_centres();
     if (!grid && !thin_light_.empty()) grid.emplace(tracer_.surfaces(), tile_.width, tile_.height);
     if (grid) {
-      std::vector<EdgePixel> edge_pixels = look_at_centres(*grid, result);
+      std::vector<std::uint8_t> done(grid->size(), 0);
+      if (sampling_.max > 1) look_at_rims(*grid, done, result);
+      std::vector<EdgePixel> edge_pixels = look_at_centres(*grid, done, result);
       look_at_edges(edge_pixels, result);
     }
     return std::move(counts_);
@@ -192,22 +144,17 @@ class TileTaker {
         });
   }
 
-  /// Traces rays number 0 to `rays` at film positions `position(n)`, by batches, and calls `use(n, i)` for
-  /// each ray n, which is number i of its batch, where `trace_batch(batch)` has found something.
+  /// As trace_in_batches(); `trace_batch(batch)` says what it has found.
   template <class Position, class TraceBatchOf, class Use>
   void trace(std::size_t rays, Position position, TraceBatchOf trace_batch, Use use) {
-    for (std::size_t first = 0; first < rays; first += kBatchSize) {
-      const std::size_t count = std::min<std::size_t>(kBatchSize, rays - first);
-      for (std::size_t i = 0; i < kBatchSize; ++i) {
-        const FilmPosition film = position(first + std::min(i, count - 1));
-        batch_.x[i] = film.x;
-        batch_.y[i] = film.y;
-      }
-      const Found found = trace_batch(batch_);
-      if (found != Found::NothingNew) counts_.rays += static_cast<std::int64_t>(count);
-      if (found != Found::Something) continue;
-      for (std::size_t i = 0; i < count; ++i) use(first + i, i);
-    }
+    trace_in_batches(
+        rays, batch_, position,
+        [&](TraceBatch& batch, std::size_t count) {
+          const Found found = trace_batch(batch);
+          if (found != Found::NothingNew) counts_.rays += static_cast<std::int64_t>(count);
+          return found == Found::Something;
+        },
+        use);
   }
 
   /// Nothing when none of them meets anything.
@@ -231,14 +178,65 @@ class TileTaker {
     return grid;
   }
 
-  /// Looks where one ray does; returns the other pixels.
-  std::vector<EdgePixel> look_at_centres(const CentreGrid& grid, Composite& result) {
+  /// The centres of the tile that are captured; two pixels beyond it are traced where a rim may be near.
+  std::optional<CaptureMask> captures(const CentreGrid& grid) {
+    CaptureMask mask(tile_.width, tile_.height);
+    std::vector<std::pair<int, int>> around;
+    std::size_t captured = 0;
+    for (int row = -2; row < tile_.height + 2; ++row) {
+      for (int column = -2; column < tile_.width + 2; ++column) {
+        const bool inside = row >= -1 && row <= tile_.height && column >= -1 && column <= tile_.width;
+        if (!inside) {
+          around.emplace_back(column, row);
+        } else if (grid.captured(grid.place(column, row))) {
+          mask.set_captured(column, row);
+          ++captured;
+        }
+      }
+    }
+    if (captured == 0 || captured == grid.size()) return std::nullopt;
+    std::vector<FilmPosition> films;
+    for (const auto& [column, row] : around) films.push_back(film(column, row));
+    const std::vector<std::uint8_t> found = rims_.captured_at(films);
+    for (std::size_t n = 0; n < around.size(); ++n) {
+      if (found[n] != 0) mask.set_captured(around[n].first, around[n].second);
+    }
+    return mask;
+  }
+
+  /// Looks at the pixels on the rims of shadows, which are done then.
+  void look_at_rims(const CentreGrid& grid, std::vector<std::uint8_t>& done, Composite& result) {
+    const std::int64_t before = rims_.rays();
+    if (const std::optional<CaptureMask> mask = captures(grid)) {
+      const std::vector<CaptureMask::RimPixel> places = mask->rim_pixels();
+      std::vector<RimPixel> pixels;
+      for (const auto& p : places) pixels.push_back({film(p.column, p.row), p.x, p.y});
+      const std::vector<RimLight> lights = rims_.look(
+          pixels, [&](FilmPosition at, std::span<SeenPoint> points) { return take_off_thin(at, points); });
+      for (std::size_t n = 0; n < pixels.size(); ++n) {
+        if (!lights[n].holds_rim) continue;
+        const int column = places[n].column, row = places[n].row;
+        done[grid.place(column, row)] = 1;
+        put(column, row, lights[n].seen, result);
+        for (std::size_t k = 0; k < points_.size() && in_frame(pixels[n].centre); ++k) {
+          counts_.hits[k] += thin_light_.rest(column, row) * lights[n].shares[k];
+        }
+        ++counts_.refined;
+      }
+    }
+    counts_.rays += rims_.rays() - before;
+  }
+
+  /// Looks where one ray does; returns the other pixels that are not done.
+  std::vector<EdgePixel> look_at_centres(const CentreGrid& grid, const std::vector<std::uint8_t>& done,
+                                         Composite& result) {
     const std::vector<PixelKind> kinds =
         sampling_.max > 1 ? grid.kinds() : std::vector<PixelKind>(grid.size(), PixelKind::Smooth);
     std::vector<EdgePixel> edge_pixels;
     for (int row = 0; row < tile_.height; ++row) {
       for (int column = 0; column < tile_.width; ++column) {
         const std::size_t at = grid.place(column, row);
+        if (done[at] != 0) continue;
         if (kinds[at] != PixelKind::Smooth) {
           edge_pixels.emplace_back(column, row, kinds[at], points_.size());
           continue;
@@ -293,6 +291,7 @@ class TileTaker {
   const ThinBodies& thin_;
   Viewer viewer_;
   SparseTracer sparse_;
+  RimLooker rims_;
   TraceBatch batch_;
   std::vector<SeenPoint> points_;  // of one ray
   Tile tile_{};

@@ -3,12 +3,12 @@
 #include "pipeline/composite/sample_pattern.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "pipeline/composite/footprint.h"
+#include "pipeline/composite/normal_distribution.h"
 
 namespace lensplane {
 namespace {
@@ -50,8 +50,7 @@ std::uint32_t scrambled(std::uint32_t number, std::uint64_t turned) {
 
 /// The normal distribution's quantile in the middle of stratum `k`.
 double quantile(std::uint32_t k) {
-  const double share = (k + 0.5) / kMostSamples;
-  return std::sqrt(2.0) * boost::math::erf_inv(2.0 * share - 1.0);
+  return normal_quantile((k + 0.5) / kMostSamples);
 }
 
 std::array<SampleOffset, kMostSamples> make_offsets() {
