@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "pipeline/composite/ring_shadow.h"
+
 namespace lensplane {
 namespace {
 
@@ -38,18 +40,6 @@ Rgba lit_sphere(const SurfaceLook& look, TextureCoordinates st, const Footprint&
   return colour;
 }
 
-/// How much light reaches a point of a ring: none inside the caster's cylinder of shadow. `width`: metres of
-/// the ring that are seen at once, over which the shadow's edge is spread.
-double light_share(const ShadowCaster& caster, const Vec3& light, const Vec3& point, double width) {
-  const Vec3 from_centre = point - caster.centre;
-  const double towards = from_centre.dot(light);
-  if (towards >= 0.0) return 1.0;  // between the caster and the light
-  const double from_axis = (from_centre - light * towards).length();
-  const double outside = from_axis - caster.radius;
-  if (!(width > 0.0)) return outside < 0.0 ? 0.0 : 1.0;
-  return smooth_step(-width, width, outside);
-}
-
 }  // namespace
 
 std::vector<std::size_t> order_at_infinity(const std::vector<Surface>& surfaces) {
@@ -74,10 +64,7 @@ Rgba shade(const Surface& surface, const SurfaceLook& look, TextureCoordinates s
   if (look.light && std::holds_alternative<Sphere>(surface)) return lit_sphere(look, st, footprint);
   Rgba colour = look.texture->filtered(st, footprint);
   if (const auto* ring = std::get_if<Ring>(&surface); ring && look.light && look.caster) {
-    const double width =
-        (ring->outer - ring->inner) * footprint.scale * std::hypot(footprint.ds_dx, footprint.ds_dy);
-    const Vec3 point = ring->axes.local_from_parent(ring_point_from_st(*ring, st) - ring->centre);
-    scale_colour(light_share(*look.caster, *look.light, point, width), colour);
+    scale_colour(light_share(*ring, *look.caster, *look.light, st, footprint), colour);
   }
   return colour;
 }

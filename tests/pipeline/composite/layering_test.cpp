@@ -90,23 +90,6 @@ TEST(Layering, RingsAreDarkWhereTheCasterStandsBeforeTheLight) {
   EXPECT_EQ(light_at({flat(white), Vec3(1, 0, 0)}, -20, 1, kNarrow), 1);
 }
 
-TEST(Layering, ShadowsEdgeIsAsWideAsWhatIsSeenAtOnce) {
-  const SurfaceLook look{flat({1, 1, 1, 1}), Vec3(1, 0, 0), {}, ShadowCaster{{0, 0, 0}, 5}};
-  for (const double width : {0.5, 2.0}) {
-    const double x = -20;
-    EXPECT_EQ(light_at(look, x, 5 - 1.001 * width, width), 0);
-    EXPECT_NEAR(light_at(look, x, 5 - width / 2, width), 0.15625, 1e-5);
-    EXPECT_NEAR(light_at(look, x, 5, width), 0.5, 1e-5);
-    EXPECT_NEAR(light_at(look, x, 5 + width / 2, width), 0.84375, 1e-5);
-    EXPECT_EQ(light_at(look, x, 5 + 1.001 * width, width), 1);
-  }
-  // A ray of a part of a pixel sees a part of the width.
-  Footprint part{.ds_dx = 2.0 / 20};
-  part.scale = 0.25;
-  EXPECT_EQ(shade(kRing, look, on_ring(-20, 5 - 0.51), part)[0], 0);
-  EXPECT_NEAR(shade(kRing, look, on_ring(-20, 5 - 0.25), part)[0], 0.15625, 1e-5);
-}
-
 TEST(Layering, PointsOnTheEdgeOfAShadowWithoutWidthAreLitOrDark) {
   const SurfaceLook look{flat({1, 1, 1, 1}), Vec3(0, 0, 1), {}, ShadowCaster{{0, 0, 0}, 10}};
   // Points on the cylinder's edge, but for rounding.
@@ -117,6 +100,50 @@ TEST(Layering, PointsOnTheEdgeOfAShadowWithoutWidthAreLitOrDark) {
   // A caster without size, on whose axis the point lies: exactly on the edge.
   const SurfaceLook point{flat({1, 1, 1, 1}), Vec3(0, 0, 1), {}, ShadowCaster{{0, 0, 20}, 0}};
   EXPECT_EQ(shade(Ring{Vec3(0), {}, 10, 30}, point, {0, 0.5}, {})[0], 1);
+}
+
+// Of the light of a pixel whose edge is straight but for a hundredth of its width.
+constexpr double kShadowError = 0.01;
+
+/// The light of a white ring under a footprint, by very many points of the pixel filter.
+double light_by_points(const SurfaceLook& look, TextureCoordinates st, const Footprint& f,
+                       double step = 0.05) {  // in standard deviations
+  constexpr double kReach = 4;
+  double sum = 0, weights = 0;
+  for (double y = -kReach; y <= kReach; y += step) {
+    for (double x = -kReach; x <= kReach; x += step) {
+      const double weight = std::exp(-(x * x + y * y) / 2), film = kPixelSigma * f.scale;
+      const TextureCoordinates at{st.s + film * (f.ds_dx * x + f.ds_dy * y),
+                                  st.t + film * (f.dt_dx * x + f.dt_dy * y)};
+      sum += weight * double(shade(kRing, look, at, {})[0]);
+      weights += weight;
+    }
+  }
+  return sum / weights;
+}
+
+TEST(Layering, ShadowsEdgeHasThePixelFiltersShareWhateverWayTheFootprintLies) {
+  const SurfaceLook look{flat({1, 1, 1, 1}), Vec3(1, 0, 0), {}, ShadowCaster{{0, 0, 0}, 5}};
+  const Footprint footprints[] = {{.ds_dx = 0.02, .dt_dy = 0.002},  // along the radius
+                                  {.ds_dx = 1e-4, .dt_dy = 0.004},  // round the ring, across the edge
+                                  {.dt_dx = 0.004, .scale = 0.3},   // one dimension, part of a pixel
+                                  {0.01, 0.015, -0.002, 0.003}};    // aslant
+  for (const Footprint& footprint : footprints) {
+    for (const double aside : {4.0, 4.7, 5.0, 5.1, 5.5}) {
+      const TextureCoordinates st = on_ring(-20, aside);
+      const double truth = light_by_points(look, st, footprint);
+      EXPECT_NEAR(shade(kRing, look, st, footprint)[0], truth, kShadowError) << aside;
+    }
+  }
+}
+
+TEST(Layering, AShadowThinnerThanAPixelTakesItsShareOfLight) {
+  const SurfaceLook look{flat({1, 1, 1, 1}), Vec3(1, 0, 0), {}, ShadowCaster{{0, 0, 0}, 0.05}};
+  const Footprint across{.dt_dx = 0.004};  // 0.23 m standard deviation
+  const TextureCoordinates st = on_ring(-20, 0.04);
+  const double truth = light_by_points(look, st, across, 0.013);
+  EXPECT_LT(truth, 0.9);
+  EXPECT_NEAR(shade(kRing, look, st, across)[0], truth, kShadowError);
 }
 
 TEST(Layering, ShadowsAreWhereRaysTowardsTheLightMeetTheCaster) {

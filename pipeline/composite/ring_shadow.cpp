@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "pipeline/composite/ring_shadow.h"
+
+#include <cmath>
+
+#include "pipeline/composite/normal_distribution.h"
+#include "src/constants.h"
+
+namespace lensplane {
+namespace {
+
+/// How a point of the ring moves on it, in its own axes, when s and t change by so much.
+Vec3 moved(const Ring& ring, TextureCoordinates st, double ds, double dt) {
+  const double wide = ring.outer - ring.inner, radius = ring.inner + st.s * wide;
+  const double angle = (st.t - 0.5) * 2.0 * kPi, turn = 2.0 * kPi * dt;
+  const Vec3 outward(std::sin(angle), 0.0, std::cos(angle)), onward(std::cos(angle), 0.0, -std::sin(angle));
+  return outward * (wide * ds) + onward * (radius * turn);
+}
+
+}  // namespace
+
+double light_share(const Ring& ring, const ShadowCaster& caster, const Vec3& light, TextureCoordinates st,
+                   const Footprint& footprint) {
+  const Vec3 point = ring.axes.local_from_parent(ring_point_from_st(ring, st) - ring.centre);
+  const Vec3 from_centre = point - caster.centre;
+  const double towards = from_centre.dot(light);
+  if (towards >= 0.0) return 1.0;  // between the caster and the light
+  const Vec3 from_axis = from_centre - light * towards;
+  const double off = from_axis.length();
+  // Metres away from the axis that are seen at once, as a standard deviation.
+  const double x = from_axis.dot(moved(ring, st, footprint.ds_dx, footprint.dt_dx));
+  const double y = from_axis.dot(moved(ring, st, footprint.ds_dy, footprint.dt_dy));
+  const double width = off > 0.0 ? kPixelSigma * footprint.scale * std::hypot(x, y) / off : 0.0;
+  if (!(width > 0.0)) return off < caster.radius ? 0.0 : 1.0;
+  // Both edges: the shadow may be narrower than a pixel.
+  return normal_share((off - caster.radius) / width) + normal_share((-caster.radius - off) / width);
+}
+
+}  // namespace lensplane
