@@ -82,7 +82,7 @@ void report_moving(const std::string& name, Thing thing, double size, std::optio
     const Tracer tracer = tracer_of(scene);
     const double right = area ? *area : total(true_picture(tracer, looks_of(white())).by_pixel_filter, 3);
     render.add(total(composite(tracer, looks_of(white()), {}).picture, 3) / right);
-    comp.add(total(by_comp(tracer, trace_maps(tracer), white()), 3) / right);
+    comp.add(total(by_comp(tracer, maps_of(tracer), white()), 3) / right);
   }
   fmt::print("| {} | {} | {} |\n", name, render.text(), comp.text());
   std::fflush(stdout);
@@ -120,7 +120,7 @@ void report_unlensed_plate() {
                                    {"mirror", Wrap::Mirror},
                                    {"repeat", Wrap::Repeat}}) {
     const std::vector<Seen> plate = {seen(noise(96, 54), edge)};
-    const std::vector<LensMap> maps = trace_maps(tracer);
+    const std::vector<LensMap> maps = maps_of(tracer);
     fmt::print("| noise, edge {} | {:.1e} | {:.1e} | {:.1e} |\n", name,
                largest_difference(composite(tracer, looks_of(plate), {}).picture, plate[0].picture),
                largest_difference(by_comp(tracer, maps, plate), plate[0].picture),
@@ -142,7 +142,7 @@ void report_white_sky() {
     const std::vector<Seen> sky = {seen(plain_picture(width, width / 2, {1, 1, 1, 1}), Wrap::Globe)};
     const Picture truth = true_picture(tracer, looks_of(sky)).by_pixel_filter;
     const Picture render = composite(tracer, looks_of(sky), {}).picture;
-    const std::vector<LensMap> maps = trace_maps(tracer);
+    const std::vector<LensMap> maps = maps_of(tracer);
     const auto least = [&](const Picture& picture, bool centres) {
       float least = 1;
       for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -177,7 +177,7 @@ void report_photon_ring() {
     const Tracer tracer = tracer_of(scene);
     const Picture truth = true_picture(tracer, looks_of(plate), kFineRays).by_pixel_filter;
     const Picture render = composite(tracer, looks_of(plate), {}).picture;
-    const Picture comp = by_comp(tracer, trace_maps(tracer), plate);
+    const Picture comp = by_comp(tracer, maps_of(tracer), plate);
     const double off = total(render, 1) - total(truth, 1), off_comp = total(comp, 1) - total(truth, 1);
     light.add(off);
     of_comp.add(off_comp);

@@ -7,6 +7,7 @@
 #include "pipeline/composite/compositor.h"
 #include "pipeline/composite/map_composite.h"
 #include "pipeline/composite/map_jacobian.h"
+#include "pipeline/composite/sample_pattern.h"
 #include "pipeline/sequence/map_layers.h"
 #include "tests/quality/peer_area_filter.h"
 #include "tests/quality/peer_st_warp.h"
@@ -81,6 +82,12 @@ Tracer tracer_of(const Scene& scene) {
   return {scene, plan_trace(scene, settings)};
 }
 
+std::vector<LensMap> maps_of(const Tracer& tracer) {
+  std::vector<LensMap> maps = trace_maps(tracer);
+  filter_coverage(tracer, coverage_filter(), {0, tracer.camera().full_height()}, maps);
+  return maps;
+}
+
 Picture by_comp(const Tracer& tracer, const std::vector<LensMap>& maps, const std::vector<Seen>& surfaces) {
   std::vector<MapLayer> layers;
   for (std::size_t k = 0; k < maps.size(); ++k) {
@@ -106,7 +113,7 @@ Frame make_frame(const Scene& scene, const std::vector<Seen>& surfaces) {
   const Tracer tracer = tracer_of(scene);
   const std::vector<SurfaceLook> looks = looks_of(surfaces);
   Frame frame;
-  frame.maps = trace_maps(tracer);
+  frame.maps = maps_of(tracer);
   frame.truth = true_picture(tracer, looks);
   frame.render = composite(tracer, looks, {}).picture;
   frame.comp = by_comp(tracer, frame.maps, surfaces);

@@ -27,6 +27,9 @@ std::vector<SurfaceLook> looks_of(const std::vector<Seen>& surfaces);
 /// By the plan, with all that a picture, comp and warp need.
 Tracer tracer_of(const Scene& scene);
 
+/// As lensplane map makes them, with filtered coverage.
+std::vector<LensMap> maps_of(const Tracer& tracer);
+
 /// As lensplane comp makes it: from maps and their data files. `surfaces` in the order of the scene's.
 Picture by_comp(const Tracer& tracer, const std::vector<LensMap>& maps, const std::vector<Seen>& surfaces);
 
