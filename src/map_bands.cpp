@@ -32,7 +32,10 @@ std::vector<LensMap> last_rows(std::vector<LensMap>& maps, int rows) {
 }  // namespace
 
 MapBands::MapBands(const Tracer& tracer, std::optional<FilmFilter> filter)
-    : tracer_(tracer), filter_(std::move(filter)) {}
+    : tracer_(tracer), filter_(std::move(filter)) {
+  if (filter_) thin_ = ThinCoverage(tracer, filter_->sigma);
+  rays_ = thin_.rays();
+}
 
 RowRange MapBands::trace_until(int until) {
   const int height = tracer_.camera().full_height();
@@ -49,7 +52,7 @@ RowRange MapBands::trace_until(int until) {
   }
   if (until < height) finished_.end = std::max(finished_.begin, until - kCoverageMargin);
   kept_ = last_rows(maps_, rows_to_keep());
-  rays_ += filter_coverage(tracer_, *filter_, held_, maps_);
+  rays_ += filter_coverage(tracer_, *filter_, thin_, held_, maps_);
   return finished_;
 }
 

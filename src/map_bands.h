@@ -14,7 +14,7 @@ namespace lensplane {
 /// Makes the maps of a tracer's camera from the top down.
 class MapBands {
  public:
-  /// Without a filter the maps are those of trace_maps().
+  /// Without a filter the maps are those of trace_maps(). `tracer` has to stay.
   MapBands(const Tracer& tracer, std::optional<FilmFilter> filter);
 
   /// Traces on down to row `until`, which lies below those traced before: fastest are multiples of
@@ -33,6 +33,7 @@ class MapBands {
 
   const Tracer& tracer_;
   std::optional<FilmFilter> filter_;
+  ThinCoverage thin_;
   std::vector<LensMap> maps_;
   std::vector<LensMap> kept_;  // as their centres see them: the last rows of maps(), for the next band
   RowRange held_;              // the rows of maps_

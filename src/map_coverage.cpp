@@ -17,6 +17,9 @@
 namespace lensplane {
 namespace {
 
+/// The coverage of what the centre alone sees: next to nothing, but not lost.
+constexpr float kLeastSeen = 1e-3F;
+
 /// What one ray of a pixel sees of one surface.
 struct Glimpse {
   Outcome outcome = Outcome::Missed;
@@ -26,10 +29,12 @@ struct Glimpse {
 /// Traces more rays through edge pixels; one for each thread.
 class EdgeTracer {
  public:
-  EdgeTracer(const Tracer& tracer, const FilmFilter& filter, int top, std::vector<LensMap>& maps)
+  EdgeTracer(const Tracer& tracer, const FilmFilter& filter, const ThinCoverage& thin, int top,
+             std::vector<LensMap>& maps)
       : tracer_(tracer),
         plain_(tracer.without_passes()),
         filter_(filter),
+        thin_(thin),
         top_(top),
         maps_(maps),
         plain_batch_(plain_.make_batch()),
@@ -94,7 +99,11 @@ class EdgeTracer {
         [&](std::size_t n, std::size_t i) {
           for (std::size_t k = 0; k < maps_.size(); ++k) {
             const SurfaceBatch& surface = plain_batch_.surfaces[k];
-            glimpse(pixels[n / each], k, from + n % each) = {surface.outcome[i], surface.s[i], surface.t[i]};
+            Outcome outcome = surface.outcome[i];
+            const bool thin =
+                outcome == Outcome::Hit && thin_.holds({plain_batch_.x[i], plain_batch_.y[i]}, k);
+            if (thin) outcome = Outcome::Missed;  // is counted as a whole
+            glimpse(pixels[n / each], k, from + n % each) = {outcome, surface.s[i], surface.t[i]};
           }
         });
   }
@@ -144,9 +153,7 @@ class EdgeTracer {
     const std::size_t at = place_in(map, pixels_[pixel].row, pixels_[pixel].column);
     const bool centre_hits = map.valid[at] != 0;
     const float share = share_of(pixel, surface, Outcome::Hit);
-    // What the centre alone sees is not lost.
-    const float least = centre_hits ? 0.5F / static_cast<float>(filter_.points.size()) : 0.0F;
-    map.valid[at] = std::max(share, least);
+    map.valid[at] = std::max(share, centre_hits ? kLeastSeen : 0.0F);
     for (Pass& pass : map.passes) {
       if (pass.channel == kShadowChannel) pass.values[at] = share_of(pixel, surface, Outcome::Captured);
     }
@@ -171,6 +178,7 @@ class EdgeTracer {
   const Tracer& tracer_;
   Tracer plain_;
   const FilmFilter& filter_;
+  const ThinCoverage& thin_;
   int top_;
   std::vector<LensMap>& maps_;
   TraceBatch plain_batch_, batch_;
@@ -215,14 +223,66 @@ void extend_row(const std::vector<std::vector<int>>& edges, int row, LensMap& ma
   }
 }
 
+/// The shares of thin images that lie in `rows`.
+std::span<const ThinShare> shares_in(const ThinCoverage& thin, RowRange rows) {
+  const auto at = [&](int row) {
+    return std::partition_point(thin.shares().begin(), thin.shares().end(),
+                                [&](const ThinShare& share) { return share.pixel.row < row; });
+  };
+  return {at(rows.begin), at(rows.end)};
+}
+
+void add_columns(std::span<const ThinShare> shares, int top, std::vector<std::vector<int>>& edges) {
+  for (const ThinShare& share : shares) {
+    std::vector<int>& columns = edges[static_cast<std::size_t>(share.pixel.row - top)];
+    const auto after = std::lower_bound(columns.begin(), columns.end(), share.pixel.column);
+    if (after == columns.end() || *after != share.pixel.column) columns.insert(after, share.pixel.column);
+  }
+}
+
+/// Adds what thin images cover, and where nothing else is seen what they show.
+void add_thin(const Tracer& tracer, std::span<const ThinShare> shares, int top, std::vector<LensMap>& maps) {
+  std::vector<const ThinShare*> shown;
+  const auto place = [&](const ThinShare& share) {
+    return place_in(maps[share.surface], share.pixel.row - top, share.pixel.column);
+  };
+  for (const ThinShare& share : shares) {
+    LensMap& map = maps[share.surface];
+    const std::size_t at = place(share);
+    float& valid = map.valid[at];
+    if (valid == 0) {
+      map.s[at] = static_cast<float>(share.st.s), map.t[at] = static_cast<float>(share.st.t);
+      shown.push_back(&share);
+    }
+    const double other = valid > kLeastSeen ? valid : 0.0;
+    valid = static_cast<float>(std::min(other + share.share, 1.0));
+  }
+  if (maps.front().passes.empty()) return;
+  TraceBatch batch = tracer.make_batch();
+  for (std::size_t first = 0; first < shown.size(); first += kBatchSize) {
+    const std::size_t count = std::min<std::size_t>(kBatchSize, shown.size() - first);
+    for (std::size_t i = 0; i < kBatchSize; ++i) {
+      const FilmPosition& film = shown[first + std::min(i, count - 1)]->film;
+      batch.x[i] = film.x, batch.y[i] = film.y;
+    }
+    tracer.trace(batch);
+    for (std::size_t i = 0; i < count; ++i) {
+      const ThinShare& share = *shown[first + i];
+      store_passes(batch.surfaces[share.surface], static_cast<int>(i), place(share), maps[share.surface]);
+    }
+  }
+}
+
 }  // namespace
 
-std::int64_t filter_coverage(const Tracer& tracer, const FilmFilter& filter, RowRange rows,
-                             std::vector<LensMap>& maps) {
+std::int64_t filter_coverage(const Tracer& tracer, const FilmFilter& filter, const ThinCoverage& thin,
+                             RowRange rows, std::vector<LensMap>& maps) {
   if (maps.empty()) return 0;
   const int height = rows.end - rows.begin;
-  const MapEdges found = find_edges(tracer, rows, maps);
-  const std::vector<std::vector<int>>& edges = found.columns;
+  MapEdges found = find_edges(tracer, rows, maps);
+  std::vector<std::vector<int>>& edges = found.columns;
+  const std::span<const ThinShare> shares = shares_in(thin, rows);
+  add_columns(shares, rows.begin, edges);
   std::atomic<std::int64_t> rays = found.rays;
   std::vector<MapPixel> pixels;
   for (int row = 0; row < height; ++row) {
@@ -232,13 +292,14 @@ std::int64_t filter_coverage(const Tracer& tracer, const FilmFilter& filter, Row
   constexpr std::size_t kChunk = 64;  // pixels: whole batches
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (pixels.size() + kChunk - 1) / kChunk),
                     [&](const tbb::blocked_range<std::size_t>& chunks) {
-                      EdgeTracer edge_tracer(tracer, filter, rows.begin, maps);
+                      EdgeTracer edge_tracer(tracer, filter, thin, rows.begin, maps);
                       for (std::size_t i = chunks.begin(); i != chunks.end(); ++i) {
                         const std::size_t first = i * kChunk;
                         edge_tracer.take({&pixels[first], std::min(kChunk, pixels.size() - first)});
                       }
                       rays += edge_tracer.rays();
                     });
+  add_thin(tracer, shares, rows.begin, maps);
   tbb::parallel_for(0, height, [&](int row) {
     for (LensMap& map : maps) extend_row(edges, row, map);
   });

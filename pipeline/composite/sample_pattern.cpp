@@ -75,6 +75,7 @@ const std::array<SampleOffset, kMostSamples>& sample_offsets() {
 
 FilmFilter coverage_filter() {
   FilmFilter filter;
+  filter.sigma = kPixelSigma;
   filter.first = kMostSamples / 4;
   const double wider = 1.0 / std::sqrt(1.0 - kSampleScale * kSampleScale);
   for (const SampleOffset& offset : sample_offsets())

@@ -9,6 +9,7 @@
 #include "pipeline/composite/map_jacobian.h"
 #include "pipeline/composite/sample_pattern.h"
 #include "pipeline/sequence/map_layers.h"
+#include "src/map_bands.h"
 #include "tests/quality/peer_area_filter.h"
 #include "tests/quality/peer_st_warp.h"
 #include "tests/quality/peer_supersampling.h"
@@ -83,9 +84,9 @@ Tracer tracer_of(const Scene& scene) {
 }
 
 std::vector<LensMap> maps_of(const Tracer& tracer) {
-  std::vector<LensMap> maps = trace_maps(tracer);
-  filter_coverage(tracer, coverage_filter(), {0, tracer.camera().full_height()}, maps);
-  return maps;
+  MapBands bands(tracer, coverage_filter());
+  bands.trace_until(tracer.camera().full_height());
+  return bands.maps();
 }
 
 Picture by_comp(const Tracer& tracer, const std::vector<LensMap>& maps, const std::vector<Seen>& surfaces) {

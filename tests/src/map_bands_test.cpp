@@ -11,7 +11,7 @@ namespace {
 
 /// Four points and one more: what they are does not matter here.
 FilmFilter some_filter() {
-  return {{{-0.3, -0.2}, {0.3, -0.3}, {-0.2, 0.3}, {0.2, 0.3}, {0.6, 0}}, 4};
+  return {0.45, {{-0.3, -0.2}, {0.3, -0.3}, {-0.2, 0.3}, {0.2, 0.3}, {0.6, 0}}, 4};
 }
 
 Tracer tracer_with_depth() {
@@ -30,7 +30,7 @@ void append(const UnsetVector<float>& from, std::size_t first, int rows, std::ve
 TEST(MapBands, AreTheWholeCutIntoPieces) {
   const Tracer tracer = tracer_with_depth();
   std::vector<LensMap> whole = trace_maps(tracer);
-  filter_coverage(tracer, some_filter(), {0, 90}, whole);
+  filter_coverage(tracer, some_filter(), ThinCoverage(tracer, 0.45), {0, 90}, whole);
   for (const std::vector<int>& cuts : {std::vector<int>{90}, {64, 90}, {1, 2, 3, 7, 8, 40, 41, 89, 90}}) {
     MapBands bands(tracer, some_filter());
     std::vector<std::vector<float>> channels(8);  // s, t, valid and depth of two surfaces

@@ -29,6 +29,7 @@ FilmFilter gaussian() {
     quantiles.push_back(low * kSigma);
   }
   FilmFilter filter;
+  filter.sigma = kSigma;
   for (const double y : quantiles) {
     for (const double x : quantiles) filter.points.push_back({x, y});
   }
@@ -56,7 +57,7 @@ Tracer tracer_of(const Scene& scene, const Effects& effects = {}) {
 
 std::vector<LensMap> filtered(const Tracer& tracer) {
   std::vector<LensMap> maps = trace_maps(tracer);
-  filter_coverage(tracer, gaussian(), {0, tracer.camera().full_height()}, maps);
+  filter_coverage(tracer, gaussian(), ThinCoverage(tracer, kSigma), {0, tracer.camera().full_height()}, maps);
   return maps;
 }
 
@@ -119,7 +120,7 @@ TEST(MapCoverage, AMapWithoutEdgesTakesNoFurtherRays) {
   const Tracer tracer = tracer_of(scene);
   std::vector<LensMap> maps = trace_maps(tracer);
   const std::vector<LensMap> before = maps;
-  EXPECT_EQ(filter_coverage(tracer, gaussian(), {0, 80}, maps), 4 * 80 + 4);  // just beyond the film
+  EXPECT_EQ(filter_coverage(tracer, gaussian(), {}, {0, 80}, maps), 4 * 80 + 4);  // just beyond the film
   for (std::size_t k = 0; k < maps.size(); ++k) EXPECT_EQ(maps[k].s, before[k].s);
 }
 
@@ -184,6 +185,40 @@ TEST(MapCoverage, AFisheyesCircleHasASoftRim) {
   // Where the circle touches the film's border its neighbours lie outside: 30 - 30 cos(arcsin(4.5 / 30)) =
   // 0.34 pixels are left of column 25, whose centre sees the sky.
   EXPECT_NEAR(map.valid[59 * 60 + 25], std::erfc(-(0.5 - 0.34) / kSigma / std::sqrt(2.0)) / 2, 0.05);
+}
+
+/// The sum over all pixels is the ball's area on the film, wherever between pixels it stands.
+TEST(MapCoverage, WhatIsThinnerThanAPixelKeepsItsArea) {
+  for (const double radius : {0.05, 0.3, 0.45, 1.2}) {
+    for (const double step : {0.0, 0.13, 0.5, 0.77}) {
+      const LensMap map = filtered(tracer_of(ball(radius, {30 + step, 29.6 - step / 2}))).front();
+      double sum = 0;
+      for (std::size_t i = 0; i < map.valid.size(); ++i) {
+        sum += map.valid[i];
+        EXPECT_TRUE(map.valid[i] == 0 || map.s[i] + map.t[i] != 0);
+      }
+      EXPECT_NEAR(sum / (kPi * radius * radius), 1, 0.02) << radius << ' ' << step;
+    }
+  }
+}
+
+TEST(MapCoverage, ARingThinnerThanAPixelIsNoRowOfDashes) {
+  Scene scene = one_surface(Plate{}, 60, 60);
+  const double pixel = 2 * std::tan(scene.camera.fov_rad / 2) / 60 * 1000;
+  const double inner = 19.6 * pixel, outer = 19.9 * pixel;
+  // Its normal looks at the camera.
+  scene.surfaces = {Ring{{0, 0, -1000}, {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, inner, outer, 0}};
+  const LensMap map = filtered(tracer_of(scene)).front();
+  double sum = 0;
+  for (const float coverage : map.valid) sum += coverage;
+  EXPECT_NEAR(sum / (kPi * (19.9 * 19.9 - 19.6 * 19.6)), 1, 0.02);
+  for (int column = 20; column < 40;
+       ++column) {  // across the upper part each column sees as much as the slope says
+    double seen = 0;
+    for (int row = 0; row < 25; ++row) seen += map.valid[static_cast<std::size_t>(row * 60 + column)];
+    const double x = column + 0.5 - 30;
+    EXPECT_NEAR(seen / (std::sqrt(19.9 * 19.9 - x * x) - std::sqrt(19.6 * 19.6 - x * x)), 1, 0.06) << column;
+  }
 }
 
 TEST(MapCoverage, DoesNotDependOnThreads) {
