@@ -24,6 +24,11 @@ constexpr double kRingSlab = 1e-3, kSphereSlab = 1.0;
 /// By which of a curved ray's crossings of a plane its way past a body is told.
 constexpr int kCrossings = 2;
 
+/// Are bodies met by curved rays?
+bool meets_bodies_by_curve(const Plan& plan) {
+  return plan.method == Method::Geodesic;
+}
+
 /// All that bend light.
 std::vector<PointMass> masses_of(const Plan& plan) {
   std::vector<PointMass> masses;
@@ -124,6 +129,25 @@ RaySegment<Dual> true_stretch(const RayPath<Dual>& path, std::size_t i, const De
   return shifted(*finite, stretch, within ? along : Dual(nearest.way));
 }
 
+/// The line on which a path is nearest to a body.
+std::optional<LightLine> line_past(const RayPath<Dual>& path, const Deflectors* finite,
+                                   const Surface& surface) {
+  std::optional<LightLine> best;
+  double least = kInfinity;
+  for (std::size_t n = 0; n < path.segments.size(); ++n) {
+    const RaySegment<Dual> stretch = true_stretch(path, n, finite, surface);
+    const double longest = value_of(stretch.length);
+    if (!(longest > 0.0)) continue;
+    const Vec3 start = value_of(stretch.start), direction = value_of(stretch.direction);
+    const NearestPoint nearest = nearest_point(surface, start, direction, longest);
+    const double gap = length(start + direction * nearest.way - nearest.of_body);
+    if (!(gap < least)) continue;
+    least = gap;
+    best = line_of(stretch);
+  }
+  return best;
+}
+
 }  // namespace
 
 Vec3 nearest_on_ring(const Ring& ring, const Vec3& point) {
@@ -153,18 +177,23 @@ NearestPoint nearest_point(const Surface& body, const Vec3& start, const Vec3& d
 
 PassingLight::PassingLight(const Tracer& tracer, std::span<const FilmPosition> films)
     : tracer_(tracer), masses_(masses_of(tracer.plan())) {
-  for (const FilmPosition film : films) first_.push_back(direction_from_film<double>(tracer.camera(), film));
   const Plan& plan = tracer.plan();
-  if (plan.method == Method::Geodesic) {
-    trace_curved(films);
-    return;
-  }
+  const Camera& camera = tracer.camera();
+  std::vector<FilmPosition> curved;
   for (const FilmPosition film : films) {
-    const std::size_t recipe = plan.method == Method::Planes ? level_at(plan, tracer.camera(), film) : 0;
-    paths_.push_back(path_of_ray<Dual>(tracer.camera(), plan, recipe, film));
+    first_.push_back(direction_from_film<double>(camera, film));
+    if (meets_bodies_by_curve(plan)) {
+      ways_.push_back({true, curved.size()});
+      curved.push_back(film);
+      continue;
+    }
+    const std::size_t recipe = plan.method == Method::Planes ? level_at(plan, camera, film) : 0;
     const bool finite = plan.method == Method::Planes && plan.recipes[recipe].finite_distance;
+    ways_.push_back({false, paths_.size()});
+    paths_.push_back(path_of_ray<Dual>(camera, plan, recipe, film));
     finite_.push_back(finite ? &plan.recipes[recipe] : nullptr);
   }
+  if (!curved.empty()) trace_curved(curved);
 }
 
 void PassingLight::trace_curved(std::span<const FilmPosition> films) {
@@ -183,32 +212,16 @@ void PassingLight::trace_curved(std::span<const FilmPosition> films) {
 std::optional<LightLine> PassingLight::past(std::size_t i, std::size_t k) const {
   const Surface& surface = tracer_.surfaces()[k];
   if (!std::holds_alternative<Sphere>(surface) && !std::holds_alternative<Ring>(surface)) return std::nullopt;
-  return paths_.empty() ? past_on_curve(i, k) : past_on_planes(i, surface);
+  const Way& way = ways_[i];
+  return way.curved ? past_on_curve(curved_[way.number], k)
+                    : line_past(paths_[way.number], finite_[way.number], surface);
 }
 
-std::optional<LightLine> PassingLight::past_on_planes(std::size_t i, const Surface& surface) const {
-  const RayPath<Dual>& path = paths_[i];
-  std::optional<LightLine> best;
-  double least = kInfinity;
-  for (std::size_t n = 0; n < path.segments.size(); ++n) {
-    const RaySegment<Dual> stretch = true_stretch(path, n, finite_[i], surface);
-    const double longest = value_of(stretch.length);
-    if (!(longest > 0.0)) continue;
-    const Vec3 start = value_of(stretch.start), direction = value_of(stretch.direction);
-    const NearestPoint nearest = nearest_point(surface, start, direction, longest);
-    const double gap = length(start + direction * nearest.way - nearest.of_body);
-    if (!(gap < least)) continue;
-    least = gap;
-    best = line_of(stretch);
-  }
-  return best;
-}
-
-std::optional<LightLine> PassingLight::past_on_curve(std::size_t i, std::size_t k) const {
+std::optional<LightLine> PassingLight::past_on_curve(const GeodesicRay<Dual>& ray, std::size_t k) const {
   std::optional<LightLine> best;
   double least = kInfinity;
   for (std::size_t n = first_disc_[k]; n + 1 < first_disc_[k + 1]; n += 2) {
-    const BodyHit<Dual>&before = curved_[i].disc_hits[n], &behind = curved_[i].disc_hits[n + 1];
+    const BodyHit<Dual>&before = ray.disc_hits[n], &behind = ray.disc_hits[n + 1];
     if (!before.hit || !behind.hit) continue;
     const bool forward = value_of(before.length) < value_of(behind.length);
     const DualVec3 &from = forward ? before.point : behind.point, &to = forward ? behind.point : before.point;
@@ -224,8 +237,8 @@ std::optional<LightLine> PassingLight::past_on_curve(std::size_t i, std::size_t 
 
 double PassingLight::clear_of_masses(std::size_t i, double least) const {
   double clear = kInfinity;
-  if (!paths_.empty()) {
-    for (const Passage<Dual>& passage : paths_[i].passages) {
+  if (!ways_[i].curved) {
+    for (const Passage<Dual>& passage : paths_[ways_[i].number].passages) {
       if (std::abs(value_of(passage.alpha)) > least)
         clear = std::min(clear, value_of(passage.b) / passage.distance);
     }
@@ -250,7 +263,8 @@ double PassingLight::deep_in_field(std::size_t i) const {
 }
 
 bool PassingLight::is_captured(std::size_t i) const {
-  return paths_.empty() ? curved_[i].captured : paths_[i].captured;
+  const Way& way = ways_[i];
+  return way.curved ? curved_[way.number].captured : paths_[way.number].captured;
 }
 
 }  // namespace lensplane

@@ -48,17 +48,23 @@ class PassingLight {
   bool is_captured(std::size_t i) const;
 
  private:
+  /// The light of one film position: a path by the plane methods, or a curved ray.
+  struct Way {
+    bool curved;
+    std::size_t number;  // among its like
+  };
+
   void trace_curved(std::span<const FilmPosition> films);
-  std::optional<LightLine> past_on_planes(std::size_t i, const Surface& surface) const;
-  std::optional<LightLine> past_on_curve(std::size_t i, std::size_t k) const;
+  std::optional<LightLine> past_on_curve(const GeodesicRay<Dual>& ray, std::size_t k) const;
 
   const Tracer& tracer_;
   std::vector<PointMass> masses_;          // all that bend light
   std::vector<Vec3> first_;                // directions at the camera
+  std::vector<Way> ways_;                  // of each film position
   std::vector<RayPath<Dual>> paths_;       // by the plane methods
-  std::vector<const Deflectors*> finite_;  // the masses, where their finite distance counts
-  std::vector<GeodesicRay<Dual>> curved_;  // by `geodesic`
-  std::vector<std::size_t> first_disc_;    // of each surface, by `geodesic`
+  std::vector<const Deflectors*> finite_;  // of each path: the masses, where their finite distance counts
+  std::vector<GeodesicRay<Dual>> curved_;  // the curved rays
+  std::vector<std::size_t> first_disc_;    // of each surface, where there are curved rays
 };
 
 /// The point of a ring nearest to `point`.
