@@ -14,8 +14,12 @@ namespace {
 PlannedFrame planned(const Shot& shot, int frame) {
   const Scene scene = scene_at(shot, frame);
   const TraceSettings settings = trace_at(shot, frame);
-  return {frame, scene, settings, plan_trace(scene, settings),
-          plate_margins(shot, frame, scene.camera.width * scene.camera.height)};
+  return {frame,
+          scene,
+          settings,
+          plan_trace(scene, settings),
+          plate_margins(shot, frame, scene.camera.width * scene.camera.height),
+          shutter_sampling(shot, frame)};
 }
 
 }  // namespace

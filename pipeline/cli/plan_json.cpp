@@ -72,6 +72,12 @@ Json json_from_plan(const Shot& shot, const PlannedFrame& planned) {
   const std::vector<double> shares = recipe_shares(plan, planned.scene.camera);
   for (std::size_t i = 0; i < plan.recipes.size(); ++i)
     json["recipes"].push_back(json_from_recipe(shot, plan.recipes[i], shares[i]));
+  const ShutterSampling& shutter = planned.shutter;
+  json["shutter"] = {{"samples", shutter.samples},
+                     {"auto", shutter.automatic},
+                     {"motion_px", shutter.motion_px},
+                     {"apart_px", shutter.apart_px()},
+                     {"needed", shutter.needed}};
   json["tiles"] = {{"size", plan.tiles.size},
                    {"columns", plan.tiles.columns},
                    {"rows", plan.tiles.rows},

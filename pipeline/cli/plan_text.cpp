@@ -109,6 +109,12 @@ std::string recipe_table(const PlannedFrame& planned) {
   return "\n" + text_from_rows(rows);
 }
 
+/// Nothing of a shot that is not blurred.
+std::string shutter_line(const PlannedFrame& planned) {
+  const bool still = planned.shutter.samples == 1 && !planned.shutter.automatic;
+  return still ? "" : "\n" + line_of(planned.shutter) + "\n";
+}
+
 std::string plate_table(const PlannedFrame& planned) {
   if (planned.margins.empty()) return "";
   Rows rows = {{"plate", "pixels that look outside", "margin for 99.9 %", "margin for all"}};
@@ -143,7 +149,7 @@ std::string text_from_plan(const Shot& shot, const PlannedFrame& planned) {
   }
   if (plan.method == Method::Geodesic) head += fmt::format(", to {:.3g} rad", plan.geodesic_tolerance);
   return head + "\n" + lens_table(shot, planned) + effect_table(plan) + recipe_table(planned) +
-         plate_table(planned);
+         plate_table(planned) + shutter_line(planned);
 }
 
 }  // namespace lensplane

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/sequence/plate_margins.h"
+#include "pipeline/sequence/shutter.h"
 #include "src/plan.h"
 
 namespace lensplane {
@@ -17,6 +18,7 @@ struct PlannedFrame {
   TraceSettings settings;
   Plan plan;
   std::vector<PlateMargin> margins = {};  // of all plates, by all pixels
+  ShutterSampling shutter = {};
 };
 
 /// What becomes of every lens, by any method. The paper's methods bend by all lenses, with the weak law, and

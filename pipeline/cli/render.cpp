@@ -19,6 +19,7 @@
 #include "pipeline/sequence/progress.h"
 #include "pipeline/sequence/render_sequence.h"
 #include "pipeline/sequence/shot_colours.h"
+#include "pipeline/sequence/shutter.h"
 #include "pipeline/sequence/statistics.h"
 
 namespace lensplane {
@@ -64,6 +65,8 @@ void run_render(const Options& options, const std::function<bool()>& interrupted
                          .from_maps = options.command == Command::Comp};
   if (!options.quiet) {
     for (const std::string& line : other_rates(shot, frames)) std::fputs((line + "\n").c_str(), stdout);
+    const auto strobing = tasks.picture && !tasks.from_maps ? worst_strobing(shot, frames) : std::nullopt;
+    if (strobing) std::fputs((line_of(*strobing) + "\n").c_str(), stdout);
     for (const PlateMargin& margin : worst_margins(shot, frames)) {
       std::fputs((line_of(margin) + "\n").c_str(), stdout);
     }

@@ -12,6 +12,7 @@
 #include "pipeline/image/shipped.h"
 #include "pipeline/sequence/located_in_shot.h"
 #include "pipeline/sequence/map_layers.h"
+#include "pipeline/sequence/shutter.h"
 #include "pipeline/sequence/texture_store.h"
 #include "pipeline/shot/shot_scene.h"
 
@@ -63,8 +64,9 @@ HandedLayer handed_layer(const Handoff& handoff, std::size_t index, const Colour
   return handed;
 }
 
-bool moves_in_exposure(const Shot& shot) {
-  return shot.camera.shutter.samples > 1;
+bool moves_in_exposure(const Handoff& handoff) {
+  return std::any_of(handoff.frames.begin(), handoff.frames.end(),
+                     [&](int frame) { return shutter_sampling(handoff.shot, frame).samples > 1; });
 }
 
 }  // namespace
@@ -109,7 +111,7 @@ std::vector<std::string> left_out(const Handoff& handoff) {
       words.push_back("what is seen of " + layer.name + " through itself");
   }
   if (shot.camera.glow) words.push_back("glow");
-  if (moves_in_exposure(shot)) words.push_back("motion blur");
+  if (moves_in_exposure(handoff)) words.push_back("motion blur");
   return words;
 }
 

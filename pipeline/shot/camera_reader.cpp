@@ -122,20 +122,48 @@ std::optional<int> read_overscan(const Value& overscan) {
   return pixels;
 }
 
-Shutter read_shutter(const Value& value) {
-  value.only_keys({"open", "close", "samples"});
-  const auto edge = [&value](std::string_view name) {
-    const auto moment = value.find(name);
-    return moment ? read_keyed_quantity(*moment, Dimension::Number) : Keyed<double>{};
+/// By an angle of the whole turn that a frame takes, with the frame in the middle.
+void read_shutter_angle(const Value& angle, Shutter& shutter) {
+  const auto edge = [&angle](double side) {
+    return read_keyed(angle, [side](const Value& v) {
+      const double turn = v.positive(Dimension::Angle) / (2.0 * kPi);
+      if (turn > 1.0 + 1e-12) v.refuse(in_quotes(v.text()) + "; allowed: more than 0 deg and up to 360 deg");
+      return side * turn;
+    });
   };
-  Shutter shutter{edge("open"), edge("close")};
+  shutter.open = edge(-0.5);
+  shutter.close = edge(0.5);
+}
+
+void read_shutter_edges(const Value& value, Shutter& shutter) {
+  const auto open = value.find("open"), close = value.find("close");
+  constexpr double kHalfOfHalfAFrame = 0.25;
+  if (!open && !close) {
+    shutter.open = Keyed<double>::constant(-kHalfOfHalfAFrame);
+    shutter.close = Keyed<double>::constant(kHalfOfHalfAFrame);
+  }
+  if (open) shutter.open = read_keyed_quantity(*open, Dimension::Number);
+  if (close) shutter.close = read_keyed_quantity(*close, Dimension::Number);
   for (const Keyed<double>* keyed : {&shutter.open, &shutter.close}) {
     for (const double frame : keyed->frames) {
       if (value_at(shutter.close, frame) < value_at(shutter.open, frame))
         value.refuse("closes before it opens; allowed: open <= close");
     }
   }
-  if (const auto samples = value.find("samples")) shutter.samples = samples->integer(1, kMaxShutterSamples);
+}
+
+Shutter read_shutter(const Value& value) {
+  value.only_keys({"open", "close", "angle", "samples"});
+  Shutter shutter;
+  shutter.samples = std::nullopt;
+  const auto angle = value.find("angle");
+  for (const char* key : {"open", "close"}) {
+    const auto edge = value.find(key);
+    if (angle && edge) edge->refuse("given together with angle; allowed: one of the two");
+  }
+  angle ? read_shutter_angle(*angle, shutter) : read_shutter_edges(value, shutter);
+  const auto samples = value.find("samples");
+  if (samples && samples->text() != "auto") shutter.samples = samples->integer(1, kMaxShutterSamples);
   return shutter;
 }
 

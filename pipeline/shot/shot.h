@@ -66,7 +66,7 @@ struct GlowTrack {
 /// When light is let in, in frames from the frame itself, and at how many moments between.
 struct Shutter {
   Keyed<double> open, close;
-  int samples = 1;
+  std::optional<int> samples = 1;  // nothing: as many as what moves on the film needs
 };
 
 /// What a camera's position, rotation and field of view are taken from: a file of another program, or what

@@ -2,10 +2,13 @@
 
 #include "pipeline/sequence/shutter.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
+#include "src/constants.h"
 #include "tests/pipeline/shot/example_shot.h"
 
 namespace lensplane {
@@ -49,6 +52,56 @@ TEST(Shutter, OpensAndClosesAsItsKeysSayAtTheFrame) {
   EXPECT_NEAR(moments_with(keyed, "{max: 64}", 1001)[0].time, 1001.25, kTimeError);
   EXPECT_NEAR(moments_with(keyed, "{max: 64}", 1002)[0].time, 1002, kTimeError);
   EXPECT_NEAR(moments_with(keyed, "{max: 64}", 1003)[1].time, 1003.25, kTimeError);
+}
+
+/// The example's lens, which goes so many pixels in half a frame.
+Shot shot_with_motion(double pixels, const std::string& shutter) {
+  const double metres = 2 * pixels / (20 / std::tan(1.5 * kPi / 180)) * 4.36e8;
+  return example_shot(
+      {"camera.shutter=" + shutter,
+       fmt::format("lenses.near.position={{keys: {{1001: [{0} m, 0 m, -4.36e8 m], 1003: [{1} m, 0 "
+                   "m, -4.36e8 m]}}}}",
+                   -metres, metres)});
+}
+
+TEST(Shutter, TakesAsManySamplesAsTheFastestMotionNeeds) {
+  const struct {
+    double pixels;
+    int samples;
+    bool strobes;
+  } cases[] = {{0, 1, false},   {1.4, 1, false}, {1.6, 2, false}, {7.4, 5, false},
+               {9.5, 7, false}, {95, 64, false}, {98, 64, true}};
+  for (const auto& c : cases) {
+    const Shot shot = shot_with_motion(c.pixels, "{open: -0.25, close: 0.25}");
+    const ShutterSampling sampling = shutter_sampling(shot, 1002);
+    EXPECT_EQ(sampling.samples, c.samples) << c.pixels;
+    EXPECT_EQ(sampling.strobes(), c.strobes) << c.pixels;
+    EXPECT_TRUE(sampling.automatic);
+    EXPECT_NEAR(sampling.motion_px, c.pixels, 0.01 * c.pixels);
+    EXPECT_EQ(moments_of(shot, 1002).size(), static_cast<std::size_t>(c.samples));
+    EXPECT_EQ(worst_strobing(shot, {1001, 1002}).has_value(), c.strobes);
+  }
+}
+
+TEST(Shutter, SaysWhatStrobes) {
+  const Shot few = shot_with_motion(12.8, "{angle: 180 deg, samples: 4}");
+  EXPECT_EQ(
+      line_of(shutter_sampling(few, 1002)),
+      "shutter: 4 samples, 3.2 px apart where the motion of frame 1002 is fastest: single moments are seen; "
+      "samples: auto would do");
+  ASSERT_TRUE(worst_strobing(few, {1002}));
+  EXPECT_EQ(line_of(shutter_sampling(shot_with_motion(12.8, "{samples: auto}"), 1002)),
+            "shutter: 9 samples, 1.4 px apart where the motion of frame 1002 is fastest (auto)");
+  EXPECT_EQ(line_of(shutter_sampling(shot_with_motion(192.7, "{}"), 1002)),
+            "shutter: 64 samples, 3 px apart where the motion of frame 1002 is fastest: auto takes 64 at "
+            "most, and "
+            "single moments are seen; 129 would be needed");
+  EXPECT_EQ(line_of(shutter_sampling(example_shot({"camera.shutter={}"}), 1002)),
+            "shutter: one sample; nothing moves by more than 1.5 px");
+  // One sample is a still, and so is a shot without a shutter.
+  EXPECT_FALSE(worst_strobing(shot_with_motion(12, "{samples: 1}"), {1002}));
+  EXPECT_FALSE(worst_strobing(shot_with_motion(12, "null"), {1002}));
+  EXPECT_EQ(moments_of(shot_with_motion(12, "null"), 1002).size(), 1U);
 }
 
 TEST(Shutter, MomentsShareTheRaysOfAPixel) {

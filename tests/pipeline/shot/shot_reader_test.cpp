@@ -267,6 +267,9 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
       {"camera.up=[0, 1, 0]", "only together with look_at"},
       {"camera.shutter={open: 1, close: 0}", "closes before it opens"},
       {"camera.shutter.samples=0", "whole number from 1"},
+      {"camera.shutter={angle: 180 deg, close: 1}", "camera.shutter.close: given together with angle"},
+      {"camera.shutter={angle: 361 deg}", "more than 0 deg and up to 360 deg"},
+      {"camera.shutter={angle: 0 deg}", "not greater than 0"},
       {"camera.projection=round", "allowed: perspective, latlong, fisheye"},
       {"camera=3", "a map is needed"},
       {"lenses=3", "a list is needed"},
@@ -398,6 +401,21 @@ TEST(ShotReader, ReadsSamplingShutterAndOpenOverscan) {
   EXPECT_EQ(shot.camera.shutter.samples, 256);
   EXPECT_EQ(value_at(shot.camera.shutter.open, 1002), -0.5);
   EXPECT_EQ(value_at(shot.camera.shutter.close, 1002), 0.25);
+}
+
+TEST(ShotReader, AShutterThatIsGivenBlurs) {
+  const auto shutter = [](const std::string& text) {
+    return example_shot({"camera.shutter=" + text}).camera.shutter;
+  };
+  for (const char* text : {"{}", "{samples: auto}", "{angle: 180 deg}", "{open: -0.25, close: 0.25}"}) {
+    EXPECT_EQ(shutter(text).samples, std::nullopt) << text;
+    EXPECT_EQ(value_at(shutter(text).open, 1001), -0.25) << text;
+    EXPECT_EQ(value_at(shutter(text).close, 1001), 0.25) << text;
+  }
+  const Shutter keyed = shutter("{angle: {keys: {1001: 90 deg, 1003: 360 deg}}, samples: 3}");
+  EXPECT_EQ(keyed.samples, 3);
+  EXPECT_NEAR(value_at(keyed.open, 1001), -0.125, 1e-15);
+  EXPECT_NEAR(value_at(keyed.close, 1003), 0.5, 1e-15);
 }
 
 TEST(ShotReader, PathsAreRelativeToTheShotFile) {
