@@ -340,6 +340,14 @@ Picture blank_picture(const Camera& camera) {
   return picture;
 }
 
+void expose(double stops, Picture& picture) {
+  if (stops == 0.0) return;
+  const auto gain = static_cast<float>(std::exp2(stops));
+  for (Rgba& pixel : picture.pixels) {
+    for (std::size_t c = 0; c < 3; ++c) pixel[c] *= gain;
+  }
+}
+
 void blacken_shadow(ShadowedPicture& result) {
   for (std::size_t i = 0; i < result.shadow.size(); ++i) result.picture.pixels[i][3] += result.shadow[i];
 }

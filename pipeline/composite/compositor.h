@@ -42,6 +42,9 @@ Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks,
 /// Makes the places where light ends black and opaque: the shadow is added to the alpha.
 void blacken_shadow(ShadowedPicture& result);
 
+/// Multiplies the light of a picture by 2^stops; alpha stays as it is.
+void expose(double stops, Picture& picture);
+
 /// Adds all of `other`, which has the same windows and surfaces, to `sum`; multiplies pictures and hits. The
 /// mean of several is a picture taken over time.
 void add(const Composite& other, Composite& sum);

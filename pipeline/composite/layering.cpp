@@ -40,6 +40,17 @@ Rgba lit_sphere(const SurfaceLook& look, TextureCoordinates st, const Footprint&
   return colour;
 }
 
+/// Without the gain.
+Rgba shade_plainly(const Surface& surface, const SurfaceLook& look, TextureCoordinates st,
+                   const Footprint& footprint) {
+  if (look.light && std::holds_alternative<Sphere>(surface)) return lit_sphere(look, st, footprint);
+  Rgba colour = look.texture->filtered(st, footprint);
+  if (const auto* ring = std::get_if<Ring>(&surface); ring && look.light && look.caster) {
+    scale_colour(light_share(*ring, *look.caster, *look.light, st, footprint), colour);
+  }
+  return colour;
+}
+
 }  // namespace
 
 std::vector<std::size_t> order_at_infinity(const std::vector<Surface>& surfaces) {
@@ -61,11 +72,8 @@ SeenPoint seen_point(const SurfaceBatch& surface, std::size_t i) {
 
 Rgba shade(const Surface& surface, const SurfaceLook& look, TextureCoordinates st,
            const Footprint& footprint) {
-  if (look.light && std::holds_alternative<Sphere>(surface)) return lit_sphere(look, st, footprint);
-  Rgba colour = look.texture->filtered(st, footprint);
-  if (const auto* ring = std::get_if<Ring>(&surface); ring && look.light && look.caster) {
-    scale_colour(light_share(*ring, *look.caster, *look.light, st, footprint), colour);
-  }
+  Rgba colour = shade_plainly(surface, look, st, footprint);
+  if (look.gain != 1.0F) scale_colour(look.gain, colour);
   return colour;
 }
 

@@ -41,6 +41,7 @@ struct SurfaceLook {
                                    // shaded by Lambert's law, rings lie in the shadow of `caster`
   std::shared_ptr<const Texture> night = {};  // spheres: what shines where the light does not reach
   std::optional<ShadowCaster> caster = {};    // rings
+  float gain = 1;                             // that its light is multiplied by
 };
 
 /// The colour of a surface at (s, t), under a footprint.

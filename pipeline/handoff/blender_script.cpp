@@ -77,6 +77,18 @@ def image_node(file, names, alpha, first, column, row):
     return made
 
 
+def exposed(layer, picture, row):
+    """The layer's light by its exposure at every frame."""
+    if layer["gains"] is None:
+        return picture
+    made = node("MixRGB", 3, row + 0.75, blend_type="MULTIPLY")
+    tree.links.new(picture, made.inputs[1])
+    for frame, gain in layer["gains"]:
+        made.inputs[2].default_value = (gain, gain, gain, 1)
+        made.inputs[2].keyframe_insert("default_value", frame=frame)
+    return made.outputs[0]
+
+
 def layer_image(layer, row):
     """The layer's image, premultiplied. Image nodes give straight alpha as it is: it is multiplied here."""
     if layer["alpha"] != "STRAIGHT":
@@ -117,7 +129,7 @@ def leads_to(layer, uv, row):
 picture = None
 for row, layer in enumerate(SHOT["layers"]):  # farthest first
     uv = image_node(layer["map"], ["Non-Color", "Raw"], "NONE", scene.frame_start, 0, row)
-    source = layer_image(layer, row + 0.5)
+    source = exposed(layer, layer_image(layer, row + 0.5), row + 0.5)
     looked_up = node("MapUV", 4, row, alpha=0)
     tree.links.new(source, looked_up.inputs["Image"])
     tree.links.new(leads_to(layer, uv.outputs["Image"], row), looked_up.inputs["UV"])
@@ -179,6 +191,14 @@ nlohmann::json bounds_of(const HandedLayer& layer) {
   return json::array({{"MAXIMUM", {s, t}}, {"MINIMUM", {1 - s, 1 - t}}});
 }
 
+/// Pairs of frame and gain; nothing without an exposure.
+nlohmann::json gains_of(const Handoff& handoff, const HandedLayer& layer) {
+  if (!layer.has_gain()) return {};
+  nlohmann::json gains = nlohmann::json::array();
+  for (std::size_t i = 0; i < layer.gains.size(); ++i) gains.push_back({handoff.frames[i], layer.gains[i]});
+  return gains;
+}
+
 nlohmann::json layer_data(const Handoff& handoff, const HandedLayer& layer) {
   const LayerImage& image = handoff.shot.layers[layer.layer].image;
   if (!image.choice.layer.empty() || !image.choice.part.empty()) {
@@ -197,7 +217,8 @@ nlohmann::json layer_data(const Handoff& handoff, const HandedLayer& layer) {
           {"edge", edge_operations(layer.edge)},
           {"scale", scale.scale},
           {"offset", scale.offset},
-          {"bounds", bounds_of(layer)}};
+          {"bounds", bounds_of(layer)},
+          {"gains", gains_of(handoff, layer)}};
 }
 
 /// The largest step that meets all frames.

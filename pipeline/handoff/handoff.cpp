@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/image/failure.h"
 #include "pipeline/image/frame_path.h"
@@ -54,6 +55,8 @@ HandedLayer handed_layer(const Handoff& handoff, std::size_t index, const Colour
     const auto file = file_shown(image, frame);
     if (file && !first) handed.first_frame = frame;
     if (file && !first) first = file;
+    handed.gains.push_back(
+        std::exp2(value_at(layer.exposure, frame) + value_at(shot.camera.exposure, frame)));
     handed.files.push_back(file ? std::optional(relative_to(*file, handoff.folder)) : std::nullopt);
   }
   if (!first) throw Failure(ExitCode::BadInput, image.pattern.text + ": no frame of the shot has this image");
@@ -92,6 +95,10 @@ Handoff hand_off(const Shot& shot, const std::vector<int>& frames, const std::fi
     for (const std::size_t k : depth_order(shot, frame)) order.push_back(handed_at[k]);
   }
   return handoff;
+}
+
+bool HandedLayer::has_gain() const {
+  return std::any_of(gains.begin(), gains.end(), [](double gain) { return gain != 1.0; });
 }
 
 std::vector<std::string> left_out(const Handoff& handoff) {

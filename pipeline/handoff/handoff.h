@@ -30,6 +30,9 @@ struct HandedLayer {
   AlphaKind alpha = AlphaKind::None;              // what its alpha is, which it may not have
   Edge edge = Edge::Clamp;                        // what is seen outside of it
   std::vector<std::optional<std::string>> files;  // of the image at each frame; nothing for black
+  std::vector<double> gains;  // of its light at each frame, the camera's exposure included
+
+  bool has_gain() const;
 };
 
 struct Handoff {

@@ -95,6 +95,17 @@ std::string edge_node(const HandedLayer& layer, Place place) {
   return {};  // Nuke goes on with the outermost pixels by itself
 }
 
+/// The exposure of a layer, at every frame.
+std::string exposure_node(const Handoff& handoff, const HandedLayer& layer, Place place) {
+  if (!layer.has_gain()) return {};
+  std::string curve;
+  for (std::size_t i = 0; i < layer.gains.size(); ++i)
+    curve += fmt::format(" x{} {}", handoff.frames[i], layer.gains[i]);
+  return node("Multiply",
+              fmt::format(" channels rgb\n value {{{{curve{}}}}}\n name exposure_{}\n", curve, layer.name),
+              place);
+}
+
 /// What makes the image premultiplied, and transparent outside where it ends.
 std::string image_nodes(const Handoff& handoff, const HandedLayer& layer, int column) {
   const Missing missing = handoff.shot.layers[layer.layer].image.missing;
@@ -109,6 +120,7 @@ std::string image_nodes(const Handoff& handoff, const HandedLayer& layer, int co
     text += node("Shuffle", fmt::format(" alpha white\n name opaque_{}\n", layer.name), {column, 2});
   if (layer.alpha == AlphaKind::Straight)
     text += node("Premult", fmt::format(" name premult_{}\n", layer.name), {column, 2});
+  text += exposure_node(handoff, layer, {column, 2});
   if (layer.edge == Edge::Black)
     text += node("BlackOutside", fmt::format(" name outside_{}\n", layer.name), {column, 3});
   return text;

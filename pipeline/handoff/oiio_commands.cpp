@@ -57,6 +57,7 @@ void add_layer(const Handoff& handoff, const HandedLayer& layer, std::size_t fra
             height = std::max(image.height + 2 * border, full.height);
   const std::string canvas = size_text(width, height), size = size_text(full.width, full.height);
   add_image(layer, *layer.files[frame], handoff.shot.colour.working.text, words);
+  if (layer.gains[frame] != 1.0) add(words, {"--mulc", fmt::format("{0},{0},{0},1", layer.gains[frame])});
   add(words, {"--origin", fmt::format("+{}+{}", border, border), "--fullsize", canvas, "--crop", canvas});
 
   const std::string map = path_of_frame(layer.map, handoff.frames[frame]);

@@ -2,6 +2,8 @@
 
 #include "pipeline/sequence/frame_looks.h"
 
+#include <cmath>
+
 #include "pipeline/shot/shot_scene.h"
 
 namespace lensplane {
@@ -23,6 +25,7 @@ std::vector<SurfaceLook> looks_at(const Shot& shot, const Scene& scene, TextureS
       look.caster = ShadowCaster{ring.axes.local_from_parent(shadow->sphere.centre - ring.centre),
                                  shadow->sphere.radius};
     }
+    look.gain = static_cast<float>(std::exp2(value_at(shot.layers[layer].exposure, time)));
     looks.push_back(std::move(look));
   }
   return looks;

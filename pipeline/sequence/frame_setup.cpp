@@ -53,6 +53,8 @@ void add_moment(const Shot& shot, const Moment& moment, Fingerprint& print) {
   print.add(fingerprint_of_trace(scene, plan_trace(scene, settings)).digest());
   print.add(moment.sampling.max).add(moment.sampling.threshold).add(moment.sampling.first);
   for (std::size_t k = 0; k < shot.layers.size(); ++k) {
+    const double exposure = value_at(shot.layers[k].exposure, time);
+    if (exposure != 0) print.add("exposure").add(static_cast<double>(k)).add(exposure);
     if (const auto light = light_at(shot.layers[k], time)) print.add("light").add(*light);
     if (const auto shadow = shadow_at(shot, k, time)) {
       print.add("shadow").add(shadow->light).add(shadow->sphere.centre).add(shadow->sphere.radius);
@@ -72,16 +74,20 @@ std::string fingerprint_of_picture(const Shot& shot, const ColourConfig& colours
       .add(static_cast<double>(shot.output.image.compression));
   for (std::size_t k = 0; k < shot.layers.size(); ++k) print.add(textures.digest(k, frame));
   for (const Moment& moment : moments_of(shot, frame)) add_moment(shot, moment, print);
+  const double exposure = value_at(shot.camera.exposure, frame);
+  if (exposure != 0) print.add("camera exposure").add(exposure);
   if (!shot.lenses.empty()) print.add("shadow").add(static_cast<double>(shot.trace.shadow));
   if (const auto glow = glow_at(shot, frame)) print.add("veil").add(glow->strength).add(glow->radius_px);
   return print.digest();
 }
 
-std::string fingerprint_of_review(const Shot& shot, const ColourConfig& colours, const FrameSetup& setup) {
+std::string fingerprint_of_review(const Shot& shot, const ColourConfig& colours, int frame,
+                                  const FrameSetup& setup) {
   return Fingerprint()
       .add(setup.picture_header.parameters)
       .add(colours.view_id(view_of(shot)))
       .add(static_cast<double>(shot.output.locator))
+      .add(value_at(shot.output.review_exposure, frame))
       .digest();
 }
 
@@ -151,7 +157,7 @@ FrameSetup set_up_frame(const Shot& shot, const ColourConfig& colours, TextureSt
     setup.picture_header.parameters =
         Fingerprint().add(setup.picture_header.parameters).add(digest_of_maps(shot, frame)).digest();
   }
-  if (shot.output.review) setup.review_parameters = fingerprint_of_review(shot, colours, setup);
+  if (shot.output.review) setup.review_parameters = fingerprint_of_review(shot, colours, frame, setup);
   const auto review_done = [&] {
     return !shot.output.review ||
            read_display_parameters(review_path(shot, frame)) == setup.review_parameters;

@@ -121,6 +121,7 @@ void make_picture(const Shot& shot, const ColourConfig& colours, ShotAssets& ass
     result = {std::move(exposure.picture), std::move(exposure.shadow)};
   }
   if (shot.trace.shadow == HoleShadow::Opaque) blacken_shadow(result);
+  expose(value_at(shot.camera.exposure, frame), picture);
   report_images(shot, assets.textures, frame, looks, report);
   report[Phase::Composite].bytes += picture.pixels.size() * sizeof(Rgba);
   if (const auto glow = glow_at(shot, frame)) {

@@ -42,6 +42,7 @@ Picture beside(const Picture& left, const Picture& right) {
 void make_review(const Shot& shot, const ColourConfig& colours, int frame, const FrameSetup& setup,
                  const Picture& picture, const std::vector<SurfaceLook>& looks, FrameReport& report) {
   Picture shown = display_window(picture);
+  expose(value_at(shot.output.review_exposure, frame), shown);
   if (shot.output.locator == Locator::Beside) {
     const LocatorView locator = make_locator(setup.scene, looks);
     TraceSettings settings;

@@ -219,7 +219,7 @@ CameraFile read_from(const Value& from, const Value& camera, Projection projecti
 
 CameraTrack read_camera(const Value& camera, const ShotNames& names) {
   camera.only_keys({"projection", "resolution", "fov", "focal_length", "film_width", "position", "look_at",
-                    "rotation", "up", "overscan", "shutter", "from", "glow"});
+                    "rotation", "up", "overscan", "shutter", "from", "glow", "exposure"});
   CameraTrack track;
   track.projection = read_projection(camera);
   const auto size = camera.require("resolution", "[width, height] in pixels")
@@ -240,6 +240,7 @@ CameraTrack read_camera(const Value& camera, const ShotNames& names) {
         ->refuse(fmt::format("more than {} million pixels with overscan", kMaxFilmPixels >> 20));
   }
   if (const auto shutter = camera.find("shutter")) track.shutter = read_shutter(*shutter);
+  if (const auto exposure = camera.find("exposure")) track.exposure = read_keyed_exposure(*exposure);
   if (const auto glow = camera.find("glow")) track.glow = read_glow(*glow);
   return track;
 }

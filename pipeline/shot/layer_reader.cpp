@@ -123,19 +123,20 @@ StarsLayer read_stars(const Value& layer) {
 void only_keys_of(LayerType type, const Value& layer) {
   switch (type) {
     case LayerType::Plate:
-      return layer.only_keys({"name", "type", "image", "distance", "edge"});
+      return layer.only_keys({"name", "type", "image", "distance", "edge", "exposure"});
     case LayerType::LatLong:
-      return layer.only_keys({"name", "type", "image"});
+      return layer.only_keys({"name", "type", "image", "exposure"});
     case LayerType::Sphere:
-      return layer.only_keys({"name", "type", "image", "centre", "radius", "rotation", "light", "night"});
+      return layer.only_keys(
+          {"name", "type", "image", "centre", "radius", "rotation", "light", "night", "exposure"});
     case LayerType::Ring:
       return layer.only_keys(
-          {"name", "type", "image", "centre", "normal", "inner", "outer", "shadow_of", "light"});
+          {"name", "type", "image", "centre", "normal", "inner", "outer", "shadow_of", "light", "exposure"});
     case LayerType::Stars:
       return layer.only_keys({"name", "type", "catalogue", "exposure", "rotation"});
     case LayerType::PovRay:
-      return layer.only_keys(
-          {"name", "type", "scene", "as", "distance", "edge", "unit", "antialias", "width", "timeout"});
+      return layer.only_keys({"name", "type", "scene", "as", "distance", "edge", "unit", "antialias", "width",
+                              "timeout", "exposure"});
   }
 }
 
@@ -151,7 +152,9 @@ PlateLayer read_plate(const Value& layer) {
   return plate;
 }
 
-Layer read_layer(const Value& layer, const ShotNames& names) {
+namespace {
+
+Layer read_kind(const Value& layer, const ShotNames& names) {
   if (!layer.is_map()) layer.refuse("needed: a map with the keys name, type, image, ...");
   const Value type_value =
       layer.require("type", fmt::format("one of {}", "plate, latlong, sphere, ring, stars, povray"));
@@ -174,6 +177,16 @@ Layer read_layer(const Value& layer, const ShotNames& names) {
       break;
   }
   return read_povray_layer(layer, name);
+}
+
+}  // namespace
+
+Layer read_layer(const Value& layer, const ShotNames& names) {
+  Layer result = read_kind(layer, names);
+  const auto exposure = layer.find("exposure");
+  if (exposure && !std::holds_alternative<StarsLayer>(result.kind))
+    result.exposure = read_keyed_exposure(*exposure);
+  return result;
 }
 
 namespace {

@@ -61,6 +61,20 @@ void read_maps(const Value& maps, const OutputLayers& layers, OutputSettings& se
   }
 }
 
+/// `review` is the format itself, or a map of it and of an exposure.
+void read_review(const Value& review, OutputSettings& settings) {
+  if (review.is_map()) review.only_keys({"format", "exposure"});
+  const auto format = review.is_map() ? review.find("format") : std::optional(review);
+  if (format) {
+    constexpr std::array<std::string_view, 4> kNames = {"none", "png", "png16", "tiff16"};
+    const std::size_t chosen = format->choice(kNames);
+    settings.review = chosen == 0 ? std::nullopt : std::optional(static_cast<ReviewFormat>(chosen - 1));
+  }
+  if (!review.is_map()) return;
+  if (const auto exposure = review.find("exposure"))
+    settings.review_exposure = read_keyed_exposure(*exposure);
+}
+
 Effects read_data(const Value& data) {
   std::vector<std::string_view> names;
   for (const EffectName& entry : kEffectNames) names.push_back(entry.name);
@@ -84,11 +98,7 @@ OutputSettings read_output(const std::optional<Value>& output, const std::string
   if (const auto maps = output->find("maps")) read_maps(*maps, layers, settings);
   if (const auto data = output->find("data")) settings.data = read_data(*data);
   if (std::find(settings.maps.begin(), settings.maps.end(), true) == settings.maps.end()) settings.data = {};
-  if (const auto review = output->find("review")) {
-    constexpr std::array<std::string_view, 4> kNames = {"none", "png", "png16", "tiff16"};
-    const std::size_t chosen = review->choice(kNames);
-    settings.review = chosen == 0 ? std::nullopt : std::optional(static_cast<ReviewFormat>(chosen - 1));
-  }
+  if (const auto review = output->find("review")) read_review(*review, settings);
   if (const auto locator = output->find("locator")) {
     constexpr std::array<std::string_view, 2> kNames = {"none", "beside"};
     settings.locator = static_cast<Locator>(locator->choice(kNames));

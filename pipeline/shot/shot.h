@@ -89,6 +89,7 @@ struct CameraTrack {
   std::variant<Rotation, LookAt> orientation;
   Shutter shutter;
   std::optional<GlowTrack> glow;
+  Keyed<double> exposure;          // stops, of the picture
   std::optional<CameraFile> from;  // of which read_shot() has made the above
 };
 
@@ -163,6 +164,7 @@ struct Layer {
   LayerImage image;  // stars have none
   std::variant<PlateLayer, LatLongLayer, SphereLayer, RingLayer, StarsLayer> kind;
   std::optional<PovRayScene> povray = {};  // what renders the image
+  Keyed<double> exposure = {};             // stops; stars have their own
 };
 
 /// A grade by an ASC CDL, for the picture for review.
@@ -214,6 +216,7 @@ struct OutputSettings {
   Coverage coverage = Coverage::Filtered;
   Effects data;  // passes of the data files, which stand beside the maps; none without maps
   std::optional<ReviewFormat> review = ReviewFormat::Png;
+  Keyed<double> review_exposure;  // stops, beside that of the picture
   Locator locator = Locator::None;
 };
 

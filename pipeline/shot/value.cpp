@@ -183,6 +183,15 @@ Keyed<double> read_keyed_positive(const Value& value, Dimension dimension) {
   return read_keyed(value, [dimension](const Value& v) { return v.positive(dimension); });
 }
 
+Keyed<double> read_keyed_exposure(const Value& value) {
+  constexpr double kMost = 32;
+  return read_keyed(value, [](const Value& v) {
+    const double stops = v.quantity(Dimension::Number);
+    if (std::abs(stops) > kMost) v.refuse(in_quotes(v.text()) + "; allowed: from -32 to 32 stops");
+    return stops;
+  });
+}
+
 Keyed<Vec3> read_keyed_vector(const Value& value, Dimension dimension) {
   return read_keyed(value, [dimension](const Value& v) { return v.vector(dimension); });
 }

@@ -90,6 +90,8 @@ auto read_keyed(const Value& value, Read read) -> Keyed<decltype(read(value))> {
 
 Keyed<double> read_keyed_quantity(const Value& value, Dimension dimension);
 Keyed<double> read_keyed_positive(const Value& value, Dimension dimension);
+/// Stops: up to 32 either way.
+Keyed<double> read_keyed_exposure(const Value& value);
 Keyed<Vec3> read_keyed_vector(const Value& value, Dimension dimension);
 Keyed<Direction> read_keyed_direction(const Value& value);
 

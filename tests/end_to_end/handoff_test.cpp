@@ -321,6 +321,37 @@ TEST(Handoff, ShadowsAreAsOpaqueAsInOurPicture) {
   }
 }
 
+TEST(Handoff, ExposuresMultiplyTheSameEverywhere) {
+  const HandedShot shot;
+  const auto run = [&](const char* command, std::vector<std::string> more) {
+    for (const char* word : {"-f", "1", "--set", "layers.veil.exposure={keys: {1: 1, 2: 3}}"})
+      more.push_back(word);
+    ASSERT_EQ(shot.run(command, more).err, "");
+  };
+  run("render", {"--quiet"});
+  const OIIO::ImageBuf plain = read_picture(shot.out("hand.0001.exr"));
+  const std::vector<std::string> camera = {"--set", "camera.exposure=-2"};
+  run("render", {"--quiet", camera[0], camera[1]});
+  const OIIO::ImageBuf darker = read_picture(shot.out("hand.0001.exr"));
+  for (int x = 0; x < kWidth; x += 5) {
+    for (int c = 0; c < 4; ++c)
+      EXPECT_EQ(darker.getchannel(x, 20, 0, c), plain.getchannel(x, 20, 0, c) * (c < 3 ? 0.25F : 1.0F));
+  }
+  run("comp", {"--quiet", camera[0], camera[1]});
+  run("export", {"--to", "oiio", camera[0], camera[1]});
+  run_commands(shot, 1);
+  const Difference by = difference(shot.out("hand.0001.exr"), shot.out("hand.oiio.0001.exr"));
+  EXPECT_LT(by.share, kMostDiffer);
+  EXPECT_LT(by.mean, kMeanDifference);
+  run("export", {"--to", "nuke", camera[0], camera[1]});
+  for (const NukeNode& node : read_nuke(contents_of(shot.out("hand.nk")))) {
+    if (node.kind == "Multiply") {
+      EXPECT_EQ(node.knobs.at("value"),
+                node.knobs.at("name") == "exposure_veil" ? "{{curve x1 0.5}}" : "{{curve x1 0.25}}");
+    }
+  }
+}
+
 TEST(Handoff, SaysWhatOthersLeaveOut) {
   const HandedShot shot;
   const ProgramResult exported = shot.run(

@@ -47,6 +47,14 @@ TEST(Layering, SpheresAreLitByLambertsLaw) {
   expect_colour(shade(LatLong{}, look, on_equator(-1), {}), kDay);
 }
 
+TEST(Layering, TheGainMultipliesAllLightAndNoAlpha) {
+  SurfaceLook look{flat({0.4F, 0.2F, 0.1F, 0.5F}), Vec3(0, 0, 1), flat(kNight)};
+  look.gain = 4;
+  expect_colour(shade(Plate{}, look, {0.5, 0.5}, {}), {1.6F, 0.8F, 0.4F, 0.5F});
+  expect_colour(shade(Sphere{}, look, on_equator(0.5), {}), {0.8F, 0.4F, 0.2F, 0.5F});
+  expect_colour(shade(Sphere{}, look, on_equator(-1), {}), {0.4F, 0.8F, 1.2F, 0.5F});
+}
+
 TEST(Layering, NightFadesInOverTheTwilight) {
   const SurfaceLook look{flat(kDay), Vec3(0, 0, 1), flat(kNight)};
   // The share of the night: 3 x^2 - 2 x^3 of x = (kTwilight - cosine)/(2 kTwilight), by hand.

@@ -45,6 +45,13 @@ class FrameLooks : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(FrameLooks, GainIsTwoToTheExposureAtItsTime) {
+  const auto exposed = looks("exposure: {keys: {1001: 0, 1003: 4}}", "type: plate, exposure: -1", 1001.5);
+  EXPECT_EQ(exposed[0].gain, 2);
+  EXPECT_EQ(exposed[1].gain, 0.5F);
+  EXPECT_EQ(looks("light: [1, 0, 0]", "type: plate")[0].gain, 1);
+}
+
 TEST_F(FrameLooks, LightIsInTheSpheresOwnAxes) {
   // Turned by 90 degrees about y its +z lies along the world's +x.
   const std::string light = "light: [2, 0, 0], rotation: [0 deg, 90 deg, 0 deg]";

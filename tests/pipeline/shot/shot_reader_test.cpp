@@ -212,7 +212,7 @@ TEST(ShotReader, RefusesWithPlaceKeyReasonAndWhatIsAllowed) {
   EXPECT_EQ(
       line_for("fov: 3 deg", "fv: 3 deg"),
       "s.yaml:7:3: camera.fv: unknown key; allowed: projection, resolution, fov, focal_length, film_width, "
-      "position, look_at, rotation, up, overscan, shutter, from, glow");
+      "position, look_at, rotation, up, overscan, shutter, from, glow, exposure");
   EXPECT_EQ(
       line_for("  fov: 3 deg\n", ""),
       "s.yaml:6:3: camera.fov: missing; needed: the full horizontal angle, like 3 deg (or focal_length and "
@@ -267,6 +267,9 @@ TEST(ShotReader, RefusesEveryOtherMistake) {
       {"camera.up=[0, 1, 0]", "only together with look_at"},
       {"camera.shutter={open: 1, close: 0}", "closes before it opens"},
       {"camera.shutter.samples=0", "whole number from 1"},
+      {"camera.exposure=33", "allowed: from -32 to 32 stops"},
+      {"layers.earth.exposure=1 px", "a plain number is needed"},
+      {"output={review: {type: png}}", "output.review.type: unknown key; allowed: format, exposure"},
       {"camera.shutter={angle: 180 deg, close: 1}", "camera.shutter.close: given together with angle"},
       {"camera.shutter={angle: 361 deg}", "more than 0 deg and up to 360 deg"},
       {"camera.shutter={angle: 0 deg}", "not greater than 0"},
@@ -401,6 +404,32 @@ TEST(ShotReader, ReadsSamplingShutterAndOpenOverscan) {
   EXPECT_EQ(shot.camera.shutter.samples, 256);
   EXPECT_EQ(value_at(shot.camera.shutter.open, 1002), -0.5);
   EXPECT_EQ(value_at(shot.camera.shutter.close, 1002), 0.25);
+}
+
+TEST(ShotReader, ReadsExposures) {
+  const Shot usual = example_shot({"output={review: png16}"});
+  EXPECT_EQ(value_at(usual.camera.exposure, 1001), 0);
+  EXPECT_EQ(value_at(usual.layers[0].exposure, 1001), 0);
+  EXPECT_EQ(value_at(usual.output.review_exposure, 1001), 0);
+  EXPECT_EQ(usual.output.review, ReviewFormat::Png16);
+  const Shot shot =
+      example_shot({"camera.exposure=1.5", "layers.earth.exposure={keys: {1001: -1, 1003: 1}}",
+                    "layers.background.exposure=3", "output={review: {format: tiff16, exposure: -2}}"});
+  EXPECT_EQ(value_at(shot.camera.exposure, 1001), 1.5);
+  EXPECT_EQ(value_at(shot.layers[0].exposure, 1002), 0);
+  EXPECT_EQ(value_at(shot.layers[0].exposure, 1003), 1);
+  EXPECT_EQ(value_at(shot.layers[1].exposure, 1001), 3);
+  EXPECT_EQ(value_at(shot.output.review_exposure, 1001), -2);
+  EXPECT_EQ(shot.output.review, ReviewFormat::Tiff16);
+  EXPECT_EQ(example_shot({"output={review: {exposure: 1}}"}).output.review, ReviewFormat::Png);
+  for (const char* layer :
+       {"{name: a, type: latlong, image: a.exr, exposure: 2}",
+        "{name: a, type: ring, centre: [0 m, 0 m, 0 m], normal: [0, 1, 0], inner: 1 m, outer: 2 m, "
+        "image: a.exr, exposure: 2}",
+        "{name: a, type: povray, scene: a.pov, exposure: 2}"}) {
+    EXPECT_EQ(value_at(example_shot({std::string("layers.background=") + layer}).layers[1].exposure, 1001), 2)
+        << layer;
+  }
 }
 
 TEST(ShotReader, AShutterThatIsGivenBlurs) {
