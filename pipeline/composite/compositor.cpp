@@ -14,6 +14,7 @@
 #include "pipeline/composite/capture_mask.h"
 #include "pipeline/composite/edge_finder.h"
 #include "pipeline/composite/edge_pixel.h"
+#include "pipeline/composite/pixel_parts.h"
 #include "pipeline/composite/ray_batches.h"
 #include "pipeline/composite/rim_looker.h"
 #include "pipeline/composite/sparse_tracer.h"
@@ -237,12 +238,13 @@ class TileTaker {
       for (int column = 0; column < tile_.width; ++column) {
         const std::size_t at = grid.place(column, row);
         if (done[at] != 0) continue;
-        if (kinds[at] != PixelKind::Smooth) {
+        if (kinds[at] > PixelKind::Bent) {
           edge_pixels.emplace_back(column, row, kinds[at], points_.size());
           continue;
         }
         count(film(column, row), grid.points(at), thin_light_.rest(column, row));
-        put(column, row, see(grid.points(at), 1.0, grid.captured(at) != 0), result);
+        const Rgba seen = see_pixel(grid, tracer_.surfaces(), column, row, kinds[at], viewer_);
+        put(column, row, {seen, grid.captured(at) ? uncovered(seen) : 0.0F}, result);
       }
     }
     return edge_pixels;

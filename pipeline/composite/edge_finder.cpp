@@ -46,12 +46,13 @@ struct Field {
   }
 };
 
-static_assert(PixelKind::Smooth < PixelKind::Curved && PixelKind::Curved < PixelKind::Silhouette);
+static_assert(PixelKind::Smooth < PixelKind::Bent && PixelKind::Bent < PixelKind::Curved &&
+              PixelKind::Curved < PixelKind::Silhouette);
 
 /// Adds to `apart`, as numbers of PixelKind, which of `count` pixels side by side, from number `a` on, are
 /// not where their neighbours from number `b` on expect them: one of the two sees the surface and the other
 /// does not, or sees it mirrored, or is far from where the Jacobians put it, by the mean of both, so that
-/// what is left are third derivatives and whatever has no derivative.
+/// what is left are third derivatives and whatever has no derivative; and where the Jacobian changes much.
 LENSPLANE_KERNEL void find_apart(const Field& field, std::size_t a, std::size_t b, int count, Step step,
                                  double* apart) {
   const double *hit = field.hit.data(), *s = field.s.data(), *t = field.t.data();
@@ -60,6 +61,8 @@ LENSPLANE_KERNEL void find_apart(const Field& field, std::size_t a, std::size_t 
   const double *mirrored = field.mirrored.data(), *width = field.width.data(), *reach = field.reach.data();
   const double x = 0.5 * step.x, y = 0.5 * step.y, seam = field.globe ? 1.0 : 0.0;
   constexpr double kMost = kMostCurved * kMostCurved;
+  const double straight_enough = kMostBent * kMostBent * (step.x * step.x + step.y * step.y);
+  const auto square = [](double v) { return v * v; };
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const std::size_t m = a + static_cast<std::size_t>(i), n = b + static_cast<std::size_t>(i);
@@ -70,7 +73,9 @@ LENSPLANE_KERNEL void find_apart(const Field& field, std::size_t a, std::size_t 
     const double least = reach[m] < reach[n] ? reach[m] : reach[n];
     const bool near = (off_s * off_s + off_t * off_t <= kMost * least) & (mirrored[m] == mirrored[n]);
     const bool same = hit[m] == hit[n];
-    const double found = same ? (near ? 0.0 : 1.0) : 2.0;
+    const double change = square(width[m]) * (square(ds_dx[n] - ds_dx[m]) + square(ds_dy[n] - ds_dy[m])) +
+                          square(dt_dx[n] - dt_dx[m]) + square(dt_dy[n] - dt_dy[m]);
+    const double found = same ? (near ? (change > straight_enough * least ? 1.0 : 0.0) : 2.0) : 3.0;
     apart[i] = apart[i] > found ? apart[i] : found;
   }
 }

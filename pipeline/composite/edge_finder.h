@@ -5,7 +5,8 @@
 // The centres of a tile's pixels, and of one more around it, are traced with their Jacobians. A pixel needs
 // more rays when a neighbour meets other surfaces or meets them in another order, when the picture is
 // mirrored between the two, when the light of one of them ends in a mass, or when the neighbour is not where
-// the pixel's Jacobian says.
+// the Jacobians of both say. It needs more than one footprint where the Jacobian changes much from one to the
+// other.
 
 #pragma once
 
@@ -21,13 +22,18 @@ namespace lensplane {
 /// taken for curved.
 inline constexpr double kMostCurved = 0.25;
 
+/// How much the Jacobian may change from pixel to pixel, as a share of itself, before a pixel is taken for
+/// bent: an edge under one footprint is off by a hundredth of its height then.
+inline constexpr double kMostBent = 0.12;
+
 /// Whether two rays meet the same surfaces in the same order.
 bool meet_alike(std::span<const SeenPoint> a, std::span<const SeenPoint> b);
 
 /// What a pixel needs.
 enum class PixelKind : std::uint8_t {
   Smooth,      // one ray
-  Curved,      // more: it is mirrored or bent between neighbours
+  Bent,        // one ray, but several footprints: pixel_parts.h
+  Curved,      // more rays: it is mirrored between neighbours, or bent more than second derivatives say
   Silhouette,  // more: a neighbour meets other surfaces, or in another order, so that an edge is near
 };
 

@@ -94,13 +94,28 @@ void Viewer::sort_by_depth(std::span<const SeenPoint> points) {
 Rgba Viewer::see(std::span<const SeenPoint> points, double scale) {
   Rgba colour{0, 0, 0, 0};
   if (order_.size() > 1) sort_by_depth(points);
+  veil_ = 0;
+  std::optional<float> nearest;
   for (auto k = by_depth_.rbegin(); k != by_depth_.rend() && colour[3] < 1.0F; ++k) {
     if (!points[*k].hit) continue;
+    if (nearest && veil_ == 0) veil_ = *nearest;
     Footprint footprint = points[*k].footprint;
     footprint.scale = scale;
     lay_under(colour, shade(surfaces_[*k], looks_[*k], points[*k].st, footprint));
+    if (!nearest) nearest = colour[3];
   }
   return colour;
+}
+
+float Viewer::nearest_alpha(std::span<const SeenPoint> points, double scale) {
+  if (order_.size() > 1) sort_by_depth(points);
+  for (auto k = by_depth_.rbegin(); k != by_depth_.rend(); ++k) {
+    if (!points[*k].hit) continue;
+    Footprint footprint = points[*k].footprint;
+    footprint.scale = scale;
+    return shade(surfaces_[*k], looks_[*k], points[*k].st, footprint)[3];
+  }
+  return 0;
 }
 
 float Viewer::clearness(std::span<const SeenPoint> points) const {

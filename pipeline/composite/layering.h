@@ -65,6 +65,13 @@ class Viewer {
   /// as the pixel filter.
   Rgba see(std::span<const SeenPoint> points, double scale);
 
+  /// Whether what was seen last lies at least by this share, and at most by all but this share, behind a
+  /// nearer surface: alphas between the two.
+  bool saw_through(float share) const { return veil_ >= share && veil_ <= 1 - share; }
+
+  /// The alpha of the nearest surface along such a ray, looked up as see() does; 0 where nothing is met.
+  float nearest_alpha(std::span<const SeenPoint> points, double scale);
+
   /// How much of the light from behind all plates and bodies comes through along such a ray.
   float clearness(std::span<const SeenPoint> points) const;
 
@@ -75,6 +82,7 @@ class Viewer {
   const std::vector<SurfaceLook>& looks_;
   std::vector<std::size_t> order_;     // farthest first, where rays do not say
   std::vector<std::size_t> by_depth_;  // farthest first, for the present ray
+  float veil_ = 0;  // the alpha of the nearest surface that the last ray saw, where something was behind it
 };
 
 }  // namespace lensplane
