@@ -164,7 +164,7 @@ SurfaceHit<Number> meet_body(const Surface& surface, const Camera& camera, FilmP
   const auto meeting = find_meeting(surface, path, finite);
   SurfaceHit<Number> hit;
   if (!meeting) {
-    hit.outcome = path.captured ? Outcome::Captured : Outcome::Missed;
+    hit.outcome = path.captured ? Outcome::Captured : path.unresolved ? Outcome::Unresolved : Outcome::Missed;
     hit.direction = value_of(path.segments.back().direction);
     hit.bends = path.bends;
     return hit;

@@ -21,6 +21,7 @@
 
 #include "src/basis.h"
 #include "src/dual.h"
+#include "src/place.h"
 
 namespace lensplane {
 
@@ -67,9 +68,9 @@ struct MassSums {
 };
 
 template <class N>
-void add_mass(const PointMass& mass, const Vector<N>& x, MassSums<N>& sums) {
+void add_mass(const PointMass& mass, const Place<N>& place, MassSums<N>& sums) {
   using std::sqrt;
-  const Vector<N> r = relative_to(mass.position, x);
+  const Vector<N> r = relative_to(mass.position, place);
   const N r2 = r.x * r.x + r.y * r.y + r.z * r.z;
   const N inverse2 = reciprocal(r2);  // beside the root, not after it: this is what integration waits for
   const N s = (0.5 * mass.m) * (sqrt(r2) * inverse2);
@@ -97,9 +98,9 @@ Medium<N> medium_of(const MassSums<N>& sums) {
 }
 
 template <class N>
-Medium<N> medium_at(std::span<const PointMass> masses, const Vector<N>& x) {
+Medium<N> medium_at(std::span<const PointMass> masses, const Place<N>& place) {
   MassSums<N> sums;
-  for (const PointMass& mass : masses) add_mass(mass, x, sums);
+  for (const PointMass& mass : masses) add_mass(mass, place, sums);
   return medium_of(sums);
 }
 

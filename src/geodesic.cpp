@@ -21,10 +21,11 @@ GeodesicRay<N> straight_ray(const Vector<N>& start, const Vector<N>& direction, 
   const Launch<N> launch{start, direction, 0.0};
   for (std::size_t i = 0; i < balls.size(); ++i) {
     RayPoint<N> point = first_point({}, launch);
-    const StraightApproach approach = straight_approach(value_of(point.x), value_of(point.p), balls[i]);
-    if (!is_outside(balls[i], value_of(start)) || !approach.meets || approach.t < 0.0) continue;
+    const Vec3 q = point.from(balls[i].centre);
+    const StraightApproach approach = straight_approach(q, value_of(point.p), balls[i].radius);
+    if (!is_outside(balls[i], q) || !approach.meets || approach.t < 0.0) continue;
     point.t = approach.t;
-    point.x += times(direction, N(approach.t));
+    point.place = moved(point.place, times(direction, N(approach.t)));
     ray.hits[i] = hit_at(launch, point, balls[i]);
   }
   for (std::size_t i = 0; i < discs.size(); ++i) {
@@ -34,7 +35,7 @@ GeodesicRay<N> straight_ray(const Vector<N>& start, const Vector<N>& direction, 
     if (!crossing) continue;
     RayPoint<N> point = first_point({}, launch);
     point.t = crossing->way;
-    point.x += times(direction, N(crossing->way));
+    point.place = moved(point.place, times(direction, N(crossing->way)));
     ray.disc_hits[i] = hit_at(launch, point, discs[i]);
   }
   return ray;
@@ -44,12 +45,13 @@ GeodesicRay<N> straight_ray(const Vector<N>& start, const Vector<N>& direction, 
 
 template <class N>
 GeodesicRay<N> trace_geodesic(std::span<const PointMass> masses, const Vector<N>& start,
-                              const Vector<N>& direction, double tolerance, const Bodies& bodies) {
+                              const Vector<N>& direction, double tolerance, const Bodies& bodies,
+                              const RayNeeds& needs) {
   if (masses.empty()) return straight_ray(start, direction, bodies);
   if (std::ranges::any_of(masses, [](const PointMass& mass) { return !(mass.m > 0.0); })) {
-    return trace_geodesic<N>(without_zeros(masses), start, direction, tolerance, bodies);
+    return trace_geodesic<N>(without_zeros(masses), start, direction, tolerance, bodies, needs);
   }
-  GeodesicFlight<N> flight({masses, bodies, std::max(kFinestTolerance, tolerance)}, start, direction);
+  GeodesicFlight<N> flight({masses, bodies, std::max(kFinestTolerance, tolerance), needs}, start, direction);
   while (flight.flies()) {
     flight.go_on(take_step(masses, flight.launch(), flight.at(), flight.step_length()));
   }
@@ -57,8 +59,8 @@ GeodesicRay<N> trace_geodesic(std::span<const PointMass> masses, const Vector<N>
 }
 
 template GeodesicRay<double> trace_geodesic(std::span<const PointMass>, const Vec3&, const Vec3&, double,
-                                            const Bodies&);
+                                            const Bodies&, const RayNeeds&);
 template GeodesicRay<Dual> trace_geodesic(std::span<const PointMass>, const DualVec3&, const DualVec3&,
-                                          double, const Bodies&);
+                                          double, const Bodies&, const RayNeeds&);
 
 }  // namespace lensplane

@@ -40,12 +40,13 @@ struct BodyHit {
   N delay = 0.0;            // metres of light path: coordinate light time, less |point - start|
 };
 
-/// A ray and what it meets. Where it is captured there is no asymptote, but there may be hits on the way;
-/// what is not there is 0, and its direction is a number without derivatives.
+/// A ray and what it meets. Where it is captured or unresolved there is no asymptote, but there may be hits
+/// on the way; what is not there is 0, and its direction is a number without derivatives.
 template <class N>
 struct GeodesicRay {
-  bool captured = false;
-  Vector<N> direction{N(0.0)};  // unit vector, at infinity; of a captured ray where it was followed to
+  bool captured = false;        // it ends in a mass
+  bool unresolved = false;      // it was given up, after kMaxGeodesicSteps or where distances overflow
+  Vector<N> direction{N(0.0)};  // unit vector, at infinity; else where it was followed to
   Vector<N> position{N(0.0)};   // of the straight line that the ray approaches: nearest to the start, metres
 
   /// Coordinate light time from the start, less that of a plane wave with the final direction which passes
@@ -59,24 +60,33 @@ struct GeodesicRay {
   std::vector<BodyHit<N>> disc_hits{};  // one for each disc
 };
 
-/// A ray that takes more steps is taken to be captured.
+/// A ray that takes more steps is given up: what becomes of it is not known.
 inline constexpr int kMaxGeodesicSteps = 2000;
 
 /// Finer tolerances than this are taken for it.
 inline constexpr double kFinestTolerance = 1e-16;
 
+/// What is asked of rays beside where they come from. The less, the longer their steps.
+struct RayNeeds {
+  bool delay = true;         // right to some 1e-9 of itself; else 0, also at bodies
+  double derivatives = 0.0;  // with N = Dual: their relative error, if that may be more than the tolerance
+};
+
+/// Delays are right to 1e-9 of themselves: each step to this share of them.
+inline constexpr double kDelayShare = 5e-12;
+
 /// The ray from `start` along the unit vector `direction`.
 ///
 /// `tolerance` is the error of the final direction in radians, and of positions per distance from the nearest
-/// mass; with N = Dual also the relative error of their derivatives. Delays are as right, relatively, as the
-/// deflection is. Near capture, or behind several masses, errors made early grow as the rays themselves
-/// spread.
+/// mass; with N = Dual also the relative error of their derivatives. Near capture, or behind several masses,
+/// errors made early grow as the rays themselves spread.
 ///
 /// Captured at once when it starts on a mass, or on or inside a horizon (S >= 1). Masses of zero change
 /// nothing; without masses the ray is straight: bit for bit. All results are finite; where distances overflow
-/// (beyond 1e150 m) the ray counts as captured.
+/// (beyond 1e150 m) the ray is unresolved.
 template <class N>
 GeodesicRay<N> trace_geodesic(std::span<const PointMass> masses, const Vector<N>& start,
-                              const Vector<N>& direction, double tolerance, const Bodies& bodies = {});
+                              const Vector<N>& direction, double tolerance, const Bodies& bodies = {},
+                              const RayNeeds& needs = {});
 
 }  // namespace lensplane

@@ -73,24 +73,26 @@ class Lanes {
 template <class N>
 std::vector<GeodesicRay<N>> trace_geodesics(std::span<const PointMass> masses, const Vector<N>& start,
                                             std::span<const Vector<N>> directions, double tolerance,
-                                            const Bodies& bodies) {
+                                            const Bodies& bodies, const RayNeeds& needs) {
   const std::vector<PointMass> heavy = without_zeros(masses);
   std::vector<GeodesicRay<N>> rays(directions.size());
   if (heavy.empty()) {
     std::ranges::transform(directions, rays.begin(), [&](const Vector<N>& direction) {
-      return trace_geodesic<N>({}, start, direction, tolerance, bodies);
+      return trace_geodesic<N>({}, start, direction, tolerance, bodies, needs);
     });
     return rays;
   }
-  const GeodesicScene scene{heavy, bodies, std::max(kFinestTolerance, tolerance)};
+  const GeodesicScene scene{heavy, bodies, std::max(kFinestTolerance, tolerance), needs};
   const auto lanes = std::make_unique<Lanes<N>>(scene, start, directions, rays);
   while (lanes->launch()) lanes->go_on();
   return rays;
 }
 
 template std::vector<GeodesicRay<double>> trace_geodesics(std::span<const PointMass>, const Vec3&,
-                                                          std::span<const Vec3>, double, const Bodies&);
+                                                          std::span<const Vec3>, double, const Bodies&,
+                                                          const RayNeeds&);
 template std::vector<GeodesicRay<Dual>> trace_geodesics(std::span<const PointMass>, const DualVec3&,
-                                                        std::span<const DualVec3>, double, const Bodies&);
+                                                        std::span<const DualVec3>, double, const Bodies&,
+                                                        const RayNeeds&);
 
 }  // namespace lensplane

@@ -16,6 +16,6 @@ namespace lensplane {
 template <class N>
 std::vector<GeodesicRay<N>> trace_geodesics(std::span<const PointMass> masses, const Vector<N>& start,
                                             std::span<const Vector<N>> directions, double tolerance,
-                                            const Bodies& bodies = {});
+                                            const Bodies& bodies = {}, const RayNeeds& needs = {});
 
 }  // namespace lensplane

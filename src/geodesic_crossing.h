@@ -37,11 +37,11 @@ struct CurvedView {
   const Disc& disc;
   const Launch<N>& launch;
 
-  double height(const RayPoint<N>& at) const { return height_over(disc, value_of(at.x)); }
+  double height(const RayPoint<N>& at) const { return height_over(disc, value_of(at.x())); }
   double climb(const RayPoint<N>& at) const { return disc.normal.dot(value_of(at.p)); }
   double bend(const RayPoint<N>& at) const { return disc.normal.dot(value_of(at.medium.force)); }
   double rounding(const RayPoint<N>& at) const {
-    return disc.tolerance + 1e-15 * (value_of(at.x) - value_of(launch.start)).length();
+    return disc.tolerance + 1e-15 * (value_of(at.x()) - value_of(launch.start)).length();
   }
 };
 
@@ -57,7 +57,7 @@ std::optional<double> find_turn(std::span<const PointMass> masses, const CurvedV
       masses, view.launch, from, 0.0, h, side > 0, [&](const auto& at) { return view.climb(at); },
       [&](const auto& at) { return view.bend(at); }, [](const auto&) { return 1e-9; });
   if (!turn || side_at(view.disc, view.height(*turn)) == side) return std::nullopt;
-  return turn->t - from.t;
+  return value_of(turn->t - from.t);
 }
 
 /// The point where the step of length `h` meets the disc, to the integrator's accuracy; `passage` goes on to
@@ -72,7 +72,7 @@ std::optional<RayPoint<N>> find_crossing(std::span<const PointMass> masses, cons
     const auto point = find_zero(
         masses, launch, from, low, high, passage.side > 0, [&](const auto& at) { return view.height(at); },
         [&](const auto& at) { return view.climb(at); }, [&](const auto& at) { return view.rounding(at); });
-    return point && count_crossing(disc, value_of(point->x), passage) ? point : std::nullopt;
+    return point && count_crossing(disc, value_of(point->x()), passage) ? point : std::nullopt;
   };
   if (side_at(disc, view.height(step.end)) != passage.side) return cross(0.0, h);
   const auto turn = find_turn(masses, view, from, h, step, passage.side);
@@ -86,7 +86,7 @@ std::optional<RayPoint<N>> find_crossing(std::span<const PointMass> masses, cons
 template <class N>
 BodyHit<N> hit_at(const Launch<N>& launch, const RayPoint<N>& point, const Disc& disc) {
   const Vector<N> normal(N(disc.normal.x), N(disc.normal.y), N(disc.normal.z));
-  return hit_beyond(launch, point, -height_over(disc, point.x) * reciprocal(normal.dot(point.p)));
+  return hit_beyond(launch, point, -height_over(disc, point.x()) * reciprocal(normal.dot(point.p)));
 }
 
 }  // namespace lensplane

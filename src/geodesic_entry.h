@@ -13,37 +13,37 @@ namespace lensplane {
 
 inline constexpr int kMaxEntrySteps = 40;
 
-/// Where a straight ray from `x` along `p` enters the ball, or comes nearest to it when it misses: after `t`.
+/// Where a straight ray along `p` from the point `q`, relative to the ball's centre, enters the ball, or
+/// comes nearest to it when it misses: after `t`.
 struct StraightApproach {
   double t;
   bool meets;
 };
 
-inline StraightApproach straight_approach(const Vec3& x, const Vec3& p, const Ball& ball) {
-  const Vec3 q = x - ball.centre;
-  const double p2 = p.dot(p), along = q.dot(p), outside = q.dot(q) - ball.radius * ball.radius;
+inline StraightApproach straight_approach(const Vec3& q, const Vec3& p, double radius) {
+  const double p2 = p.dot(p), along = q.dot(p), outside = q.dot(q) - radius * radius;
   const double root2 = along * along - p2 * outside;
   if (!(root2 >= 0.0)) return {-along / p2, false};
   const double root = std::sqrt(root2);
   return {along < 0.0 ? outside / (root - along) : -(along + root) / p2, true};
 }
 
-inline bool is_outside(const Ball& ball, const Vec3& x) {
-  const Vec3 q = x - ball.centre;
+/// Does a point, relative to the ball's centre, lie outside it?
+inline bool is_outside(const Ball& ball, const Vec3& q) {
   return q.dot(q) > ball.radius * ball.radius;
 }
 
 /// False when the step of length `h` certainly does not enter the ball.
 template <class N>
 bool may_enter(const Ball& ball, const RayPoint<N>& from, double h, const RayStep<N>& step) {
-  const Vec3 begin = value_of(from.x), end = value_of(step.end.x);
+  const Vec3 begin = from.from(ball.centre), end = step.end.from(ball.centre);
   if (!is_outside(ball, begin)) return false;
   if (!is_outside(ball, end)) return true;
-  if (!((begin - ball.centre).dot(value_of(from.p)) < 0.0)) return false;
-  if (!((end - ball.centre).dot(value_of(step.end.p)) > 0.0)) return false;
-  const StraightApproach chord = straight_approach(begin, end - begin, ball);
+  if (!(begin.dot(value_of(from.p)) < 0.0)) return false;
+  if (!(end.dot(value_of(step.end.p)) > 0.0)) return false;
+  const StraightApproach chord = straight_approach(begin, end - begin, ball.radius);
   if (chord.meets) return true;  // its entry may lie outside the ball by rounding
-  const Vec3 nearest = begin + (end - begin) * std::clamp(chord.t, 0.0, 1.0) - ball.centre;
+  const Vec3 nearest = begin + (end - begin) * std::clamp(chord.t, 0.0, 1.0);
   return nearest.length() <= ball.radius + h * h * step.largest_force;  // the ray's bulge from its chord
 }
 
@@ -53,15 +53,15 @@ template <class N>
 std::optional<RayPoint<N>> find_entry(std::span<const PointMass> masses, const Launch<N>& launch,
                                       const RayPoint<N>& from, double h, const RayStep<N>& step,
                                       const Ball& ball) {
-  const bool ends_inside = !is_outside(ball, value_of(step.end.x));
-  const double begins = (value_of(from.x) - ball.centre).dot(value_of(from.p));
-  const double ends = (value_of(step.end.x) - ball.centre).dot(value_of(step.end.p));
+  const bool ends_inside = !is_outside(ball, step.end.from(ball.centre));
+  const double begins = from.from(ball.centre).dot(value_of(from.p));
+  const double ends = step.end.from(ball.centre).dot(value_of(step.end.p));
   double t = ends_inside ? h : h * begins / (begins - ends);
   for (int tries = 0; tries < kMaxEntrySteps; ++tries) {
     const RayPoint<N> point = take_step(masses, launch, from, t).end;
-    const Vec3 x = value_of(point.x), p = value_of(point.p);
-    const StraightApproach approach = straight_approach(x, p, ball);
-    const double rounding = 1e-9 * ball.radius + 1e-15 * (x - value_of(launch.start)).length();
+    const Vec3 p = value_of(point.p);
+    const StraightApproach approach = straight_approach(point.from(ball.centre), p, ball.radius);
+    const double rounding = 1e-9 * ball.radius + 1e-15 * point.from(value_of(launch.start)).length();
     if (std::abs(approach.t) * p.length() <= rounding) {
       return approach.meets ? std::optional(point) : std::nullopt;
     }
@@ -81,7 +81,7 @@ BodyHit<N> hit_beyond(const Launch<N>& launch, const RayPoint<N>& point, const N
 
   BodyHit<N> hit;
   hit.hit = true;
-  hit.point = point.x + times(point.p, step);
+  hit.point = position_of(moved(point.place, times(point.p, step)));
   hit.direction = value_of(point.p).normalized();
   hit.length = t + (point.length + excess * step);
   // |hit - start| = |along direction + xi|, less n0 t without loss of digits.
@@ -97,7 +97,7 @@ BodyHit<N> hit_beyond(const Launch<N>& launch, const RayPoint<N>& point, const N
 /// Newton's; taken in N, it carries the derivatives: where they enter later, rays end farther on.
 template <class N>
 BodyHit<N> hit_at(const Launch<N>& launch, const RayPoint<N>& point, const Ball& ball) {
-  const Vector<N> q = relative_to(ball.centre, point.x);
+  const Vector<N> q = relative_to(ball.centre, point.place);
   return hit_beyond(launch, point, (ball.radius * ball.radius - q.dot(q)) * reciprocal(2.0 * q.dot(point.p)));
 }
 

@@ -16,6 +16,7 @@ struct GeodesicScene {
   std::span<const PointMass> masses;  // all > 0
   Bodies bodies;
   double tolerance;
+  RayNeeds needs;
 };
 
 /// The way from a point to infinity, to first order in the masses (time: to second order).
@@ -45,16 +46,26 @@ class GeodesicFlight {
  private:
   enum class Heading { Towards, Away, Captured };  // towards any mass, away from all
   Heading heading() const;
+  void tighten_for_delay();
   bool hides_body(const PointMass& mass) const;  // not yet met, inside the photon sphere
   bool may_meet_bodies(double bend) const;
+  bool may_meet_bodies_within(double way, double bend) const;
   bool is_far() const;
+  double longest_leap() const;
+  bool leap();
+  void go_far();
   Outlook<N> outlook(const Vector<N>& direction) const;
   void meet_bodies(const RayStep<N>& step);
   void arrive();
   void end_captured();
+  void give_up();
 
   GeodesicScene scene_;
-  double tolerance_root_;
+  double tolerance_;                                      // of the direction, radians
+  double derivatives_tolerance_;                          // relative
+  double tolerance_root_ = 0.0, derivatives_root_ = 0.0;  // their eighth roots
+  double time_tolerance_ = 0.0;                           // of a step, metres
+  double thin_for_times_ = 0.0;                           // over m; see tighten_for_delay()
   Launch<N> launch_;
   RayPoint<N> at_;
   double h_ = 0.0;

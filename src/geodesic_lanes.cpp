@@ -14,7 +14,7 @@ template <class N>
 using LaneStages = std::array<LaneMedia<N>, kNystromStages>;
 
 template <int i, class N>
-void stage_positions(const LaneSteps<N>& steps, const LaneStages<N>& stages, LaneVectors<N>& x) {
+void stage_offsets(const LaneSteps<N>& steps, const LaneStages<N>& stages, LaneVectors<N>& offsets) {
 #pragma GCC ivdep  // the arrays are all different ones
   for (int lane = 0; lane < kLanes; ++lane) {
     Vector<N> bend(N(0.0));
@@ -22,7 +22,8 @@ void stage_positions(const LaneSteps<N>& steps, const LaneStages<N>& stages, Lan
       ((bend += times(stages[j].force.get(lane), kNystromMatrix[i][j])), ...);
     }
     (std::make_integer_sequence<int, i>());
-    x.set(lane, stage_position(steps.from.x.get(lane), steps.from.p.get(lane), steps.h.get(lane), i, bend));
+    offsets.set(lane, stage_offset(steps.from.place.offset.get(lane), steps.from.p.get(lane),
+                                   steps.h.get(lane), i, bend));
   }
 }
 
@@ -34,13 +35,14 @@ struct LaneMassSums {
 };
 
 template <class N>
-void lane_media(std::span<const PointMass> masses, const LaneVectors<N>& x, LaneMedia<N>& media) {
+void lane_media(std::span<const PointMass> masses, const LaneVectors<double>& anchors,
+                const LaneVectors<N>& offsets, LaneMedia<N>& media) {
   LaneMassSums<N> sums;
   for (const PointMass& mass : masses) {
 #pragma GCC ivdep
     for (int lane = 0; lane < kLanes; ++lane) {
       MassSums<N> s{sums.sum.get(lane), sums.fall.get(lane), sums.closeness2.get(lane)};
-      add_mass(mass, x.get(lane), s);
+      add_mass(mass, Place<N>{anchors.get(lane), offsets.get(lane)}, s);
       sums.sum.set(lane, s.sum);
       sums.fall.set(lane, s.fall);
       sums.closeness2.set(lane, s.closeness2);
@@ -66,6 +68,8 @@ void end_steps(const LaneStages<N>& stages, LaneSteps<N>& steps) {
                                     stages.back().get(lane));
     steps.end.set(lane, step.end);
     steps.error_root.set(lane, step.error_root);
+    steps.derivatives_root.set(lane, step.derivatives_root);
+    steps.time_error.set(lane, step.time_error);
     steps.largest_force.set(lane, step.largest_force);
     steps.largest_sum.set(lane, step.largest_sum);
   }
@@ -74,10 +78,12 @@ void end_steps(const LaneStages<N>& stages, LaneSteps<N>& steps) {
 template <class N>
 void all_stages(std::span<const PointMass> masses, LaneSteps<N>& steps) {
   LaneStages<N> stages;
-  LaneVectors<N> x;
+  LaneVectors<N> offsets;
   stages[0] = steps.from.medium;
   [&]<int... i>(std::integer_sequence<int, i...>) {
-    ((stage_positions<i + 1>(steps, stages, x), lane_media(masses, x, stages[i + 1])), ...);
+    ((stage_offsets<i + 1>(steps, stages, offsets),
+      lane_media(masses, steps.from.place.anchor, offsets, stages[i + 1])),
+     ...);
   }
   (std::make_integer_sequence<int, kNystromStages - 1>());
   end_steps(stages, steps);

@@ -44,6 +44,15 @@ struct LaneVectors {
 };
 
 template <class N>
+struct LanePlaces {
+  LaneVectors<double> anchor;
+  LaneVectors<N> offset;
+
+  Place<N> get(int lane) const { return {anchor.get(lane), offset.get(lane)}; }
+  void set(int lane, const Place<N>& a) { anchor.set(lane, a.anchor), offset.set(lane, a.offset); }
+};
+
+template <class N>
 struct LaneMedia {
   LaneVectors<N> force;
   LaneNumbers<N> excess;
@@ -60,20 +69,21 @@ struct LaneMedia {
 
 template <class N>
 struct LanePoints {
-  LaneNumbers<double> t;
+  LaneNumbers<N> t;
   LaneVectors<N> xi, pi;
   LaneNumbers<N> length, time;
-  LaneVectors<N> x, p;
+  LanePlaces<N> place;
+  LaneVectors<N> p;
   LaneMedia<N> medium;
 
   RayPoint<N> get(int lane) const {
-    return {t.get(lane),    xi.get(lane), pi.get(lane), length.get(lane),
-            time.get(lane), x.get(lane),  p.get(lane),  medium.get(lane)};
+    return {t.get(lane),    xi.get(lane),    pi.get(lane), length.get(lane),
+            time.get(lane), place.get(lane), p.get(lane),  medium.get(lane)};
   }
   void set(int lane, const RayPoint<N>& a) {
     t.set(lane, a.t), xi.set(lane, a.xi), pi.set(lane, a.pi);
     length.set(lane, a.length), time.set(lane, a.time);
-    x.set(lane, a.x), p.set(lane, a.p), medium.set(lane, a.medium);
+    place.set(lane, a.place), p.set(lane, a.p), medium.set(lane, a.medium);
   }
 };
 
@@ -91,14 +101,16 @@ struct LaneLaunches {
 /// A step of every lane.
 template <class N>
 struct LaneSteps {
-  LaneLaunches<N> launch;                                      // in
-  LanePoints<N> from;                                          // in
-  LaneNumbers<double> h;                                       // in: length of the step
-  LanePoints<N> end;                                           // out
-  LaneNumbers<double> error_root, largest_force, largest_sum;  // out
+  LaneLaunches<N> launch;                                        // in
+  LanePoints<N> from;                                            // in
+  LaneNumbers<double> h;                                         // in: length of the step
+  LanePoints<N> end;                                             // out
+  LaneNumbers<double> error_root, derivatives_root, time_error;  // out
+  LaneNumbers<double> largest_force, largest_sum;                // out
 
   RayStep<N> get(int lane) const {
-    return {end.get(lane), error_root.get(lane), largest_force.get(lane), largest_sum.get(lane)};
+    return {end.get(lane),        error_root.get(lane),    derivatives_root.get(lane),
+            time_error.get(lane), largest_force.get(lane), largest_sum.get(lane)};
   }
 };
 

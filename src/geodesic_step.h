@@ -3,7 +3,9 @@
 // One step along a curved ray, of order 8, and how wrong it is.
 //
 // What is integrated is how a ray departs from the straight line on which it starts, so that small
-// deflections and delays keep their digits however long the way: x = start + p0 t + xi, p = p0 + pi.
+// deflections and delays keep their digits however long the way: x = start + p0 t + xi, p = p0 + pi. Where
+// the ray is, is kept as a place by itself (place.h), step by step: what it passes is near it, not near the
+// start.
 
 #pragma once
 
@@ -27,37 +29,42 @@ struct Launch {
 /// A point of a ray, with all that its next step begins with.
 template <class N>
 struct RayPoint {
-  double t = 0.0;        // metres
+  N t = 0.0;             // metres
   Vector<N> xi{N(0.0)};  // metres
   Vector<N> pi{N(0.0)};
   N length = 0.0;  // of the ray up to here, less t, metres
   N time = 0.0;    // of light up to here, less t, metres
-  Vector<N> x;     // metres
+  Place<N> place;  // x
   Vector<N> p;
   Medium<N> medium;  // at x
+
+  Vector<N> x() const { return position_of(place); }                                    // metres, rounded
+  Vec3 from(const Vec3& origin) const { return value_of(relative_to(origin, place)); }  // metres
 };
 
 template <class N>
 RayPoint<N> first_point(std::span<const PointMass> masses, const Launch<N>& launch) {
   RayPoint<N> point;
-  point.x = launch.start;
+  point.place = place_at(launch.start);
   point.p = launch.momentum();
-  point.medium = medium_at(masses, launch.start);
+  point.medium = medium_at(masses, point.place);
   return point;
 }
 
 template <class N>
 struct RayStep {
   RayPoint<N> end;
-  double error_root;     // error^(1/8); radians, of derivatives the relative error
-  double largest_force;  // of all stages, per metre
-  double largest_sum;    // of all stages: S
+  double error_root;        // error^(1/8), radians
+  double derivatives_root;  // the same of the derivatives' relative error
+  double time_error;        // metres
+  double largest_force;     // of all stages, per metre
+  double largest_sum;       // of all stages: S
 };
 
-/// Where stage `i` of a step stands, given its sum of a_ij f_j.
+/// Where stage `i` of a step stands, from the anchor of its beginning, given its sum of a_ij f_j.
 template <class N>
-Vector<N> stage_position(const Vector<N>& x, const Vector<N>& p, double h, int i, const Vector<N>& bend) {
-  return x + (times(p, kNystromNodes[i] * h) + times(bend, h * h));
+Vector<N> stage_offset(const Vector<N>& from, const Vector<N>& p, double h, int i, const Vector<N>& bend) {
+  return from + (times(p, kNystromNodes[i] * h) + times(bend, h * h));
 }
 
 /// What a step adds up over its stages.
@@ -65,6 +72,7 @@ template <class N>
 struct StageSums {
   Vector<N> shift{N(0.0)}, impulse{N(0.0)}, error_x{N(0.0)}, error_p{N(0.0)};  // forces by the weights
   N length = 0.0, time = 0.0;
+  double error_time = 0.0, largest_excess = 0.0;
   double largest_force = 0.0, largest_sum = 0.0;
 };
 
@@ -80,6 +88,8 @@ void add_stage(int i, const Vector<N>& force, const N& excess, double sum, Stage
   sums.error_p += times(force, kNystromVelocityError[i]);
   sums.length += kNystromVelocity[i] * excess;
   sums.time += kNystromVelocity[i] * (excess * (2.0 + excess));
+  sums.error_time += kNystromVelocityError[i] * (2.0 * value_of(excess));
+  sums.largest_excess = std::max(sums.largest_excess, value_of(excess));
   sums.largest_force = std::max(sums.largest_force, largest(value_of(force)));
   sums.largest_sum = std::max(sums.largest_sum, sum);
 }
@@ -106,8 +116,8 @@ inline double derivatives_error(const Launch<double>&, const RayPoint<double>&, 
 inline double derivatives_error(const Launch<Dual>& launch, const RayPoint<Dual>& from,
                                 const StageSums<Dual>& sums, double h, double closeness) {
   const auto error_of = [&](auto by) {
-    return derivative_error(by(launch.momentum()), by(from.x), by(from.p), by(sums.impulse), by(sums.error_x),
-                            by(sums.error_p), h, closeness);
+    return derivative_error(by(launch.momentum()), by(from.place.offset), by(from.p), by(sums.impulse),
+                            by(sums.error_x), by(sums.error_p), h, closeness);
   };
   return std::max(error_of([](const DualVec3& a) { return derivative_by_x(a); }),
                   error_of([](const DualVec3& a) { return derivative_by_y(a); }));
@@ -131,13 +141,15 @@ RayStep<N> step_of(const Launch<N>& launch, const RayPoint<N>& from, double h, c
   end.length = from.length + h * sums.length;
   end.time = from.time + h * sums.time;
   end.p = launch.momentum() + end.pi;
-  end.x = launch.start + (times(launch.momentum(), end.t) + end.xi);
+  end.place = moved(from.place, times(from.p, h) + times(sums.shift, h * h));
   end.medium = medium;
   const double closeness = std::sqrt(std::max(from.medium.closeness2, medium.closeness2));
   const double error6 =
       h * (largest(value_of(sums.error_p)) + h * closeness * largest(value_of(sums.error_x)));
   const double error = eighth_order(error6, h * sums.largest_force);
-  step.error_root = eighth_root(std::max(error, derivatives_error(launch, from, sums, h, closeness)));
+  step.error_root = eighth_root(error);
+  step.derivatives_root = eighth_root(derivatives_error(launch, from, sums, h, closeness));
+  step.time_error = eighth_order(h * std::abs(sums.error_time), 2.0 * h * sums.largest_excess);
   step.largest_force = sums.largest_force;
   step.largest_sum = sums.largest_sum;
   return step;
@@ -154,7 +166,8 @@ RayStep<N> take_step(std::span<const PointMass> masses, const Launch<N>& launch,
     Vector<N> bend(N(0.0));
 #pragma GCC unroll 8
     for (int j = 0; j < i; ++j) bend += times(stages[j].force, kNystromMatrix[i][j]);
-    stages[i] = medium_at(masses, stage_position(from.x, from.p, h, i, bend));
+    const Vector<N> offset = stage_offset(from.place.offset, from.p, h, i, bend);
+    stages[i] = medium_at(masses, Place<N>{from.place.anchor, offset});
   }
   StageSums<N> sums;
 #pragma GCC unroll 9

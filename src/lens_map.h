@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -24,9 +25,10 @@ struct Pass {
 struct LensMap {
   int width = 0;
   int height = 0;
-  UnsetVector<float> s, t;   // of the pixel's centre; 0 where it does not see the surface
-  UnsetVector<float> valid;  // 1 where it does, else 0. map_coverage.h makes all three say more of edges
-  std::vector<Pass> passes;  // what the plan's effects call for, in the order of kEffectNames
+  UnsetVector<float> s, t;      // of the pixel's centre; 0 where it does not see the surface
+  UnsetVector<float> valid;     // 1 where it does, else 0. map_coverage.h makes all three say more of edges
+  std::int64_t unresolved = 0;  // pixels whose ray was given up; they see nothing
+  std::vector<Pass> passes;     // what the plan's effects call for, in the order of kEffectNames
 };
 
 /// A pass by the name of its channel; null when the map has none.

@@ -29,6 +29,13 @@ std::vector<LensMap> last_rows(std::vector<LensMap>& maps, int rows) {
   return last;
 }
 
+/// Pixels whose ray was given up before it met what some map shows.
+std::int64_t most_unresolved(const std::vector<LensMap>& maps) {
+  std::int64_t most = 0;
+  for (const LensMap& map : maps) most = std::max(most, map.unresolved);
+  return most;
+}
+
 }  // namespace
 
 MapBands::MapBands(const Tracer& tracer, std::optional<FilmFilter> filter)
@@ -43,6 +50,7 @@ RowRange MapBands::trace_until(int until) {
   const RowRange traced{held_.end, until};
   maps_ = trace_maps(tracer_, traced, std::move(maps_), above);
   rays_ += static_cast<std::int64_t>(tracer_.camera().full_width()) * (traced.end - traced.begin);
+  unresolved_ += most_unresolved(maps_);
   held_ = {traced.begin - above, until};
   finished_ = {finished_.end, until};
   if (!filter_) return finished_;

@@ -25,7 +25,8 @@ class MapBands {
   std::size_t first_sample() const;
   const std::vector<LensMap>& maps() const { return maps_; }
 
-  std::int64_t rays() const { return rays_; }  // that were traced so far
+  std::int64_t rays() const { return rays_; }              // that were traced so far
+  std::int64_t unresolved() const { return unresolved_; }  // pixels whose ray was given up
 
  private:
   /// How many rows at the end of maps() the next band needs once more.
@@ -38,7 +39,7 @@ class MapBands {
   std::vector<LensMap> kept_;  // as their centres see them: the last rows of maps(), for the next band
   RowRange held_;              // the rows of maps_
   RowRange finished_;
-  std::int64_t rays_ = 0;
+  std::int64_t rays_ = 0, unresolved_ = 0;
 };
 
 }  // namespace lensplane

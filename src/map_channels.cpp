@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 
 namespace lensplane {
@@ -66,6 +67,8 @@ void store(const SurfaceBatch& surface, int first, int count, std::size_t at, Le
   const Outcome* outcomes = surface.outcome.data() + first;
   float* valid = &map.valid[at];
   for (int i = 0; i < count; ++i) valid[i] = outcomes[i] == Outcome::Hit ? 1.0F : 0.0F;
+  const auto unresolved = std::count(outcomes, outcomes + count, Outcome::Unresolved);
+  if (unresolved > 0) std::atomic_ref(map.unresolved) += unresolved;
   std::size_t pass = 0;
   BatchArray values;
   for (const Channel& channel : kChannels) {
@@ -95,6 +98,7 @@ void make_room(int width, int height, const Effects& effects, LensMap& map) {
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   map.width = width;
   map.height = height;
+  map.unresolved = 0;
   for (UnsetVector<float>* values : {&map.s, &map.t, &map.valid}) values->resize(pixels);
   std::size_t pass = 0;
   for (const Channel& channel : kChannels) {

@@ -51,10 +51,12 @@ bool cross(const LensPlane& plane, const Vector<Number>& crossing, const Number&
   path.segments.back().length = stretch;
   const Number travelled = path.lengths.back() + stretch;
   Vector<Number> v_ray = path.segments.back().direction;
+  path.unresolved = path.bends == kMaxCrossings;
+  if (path.unresolved) return false;
   for (const Source& source : plane.sources) {
     const Vector<Number> to_source = constant<Number>(source.position) - crossing;
     const std::optional<Vector<Number>> bent = bend(v_ray, to_source, source.m);
-    path.captured = !bent || path.bends == kMaxCrossings;
+    path.captured = !bent;
     if (path.captured) return false;
     const Number b = length(to_source);
     const Number alpha = chained(b, weak_deflection(source.m, value_of(b)),

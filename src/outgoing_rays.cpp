@@ -19,7 +19,7 @@ RayPath<double> path_by_planes(const Camera& camera, const Plan& plan, FilmPosit
 
 OutgoingRay ray_by_planes(const Camera& camera, const Plan& plan, FilmPosition film) {
   const RayPath<double> path = path_by_planes(camera, plan, film);
-  if (path.captured) return {};
+  if (path.ended()) return {};
   return {path.segments.back().start, path.segments.back().direction, false};
 }
 
@@ -35,7 +35,7 @@ OutgoingRay ray_after(const Camera& camera, const Plan& plan, std::size_t bends,
 
 /// From the line that a curved ray approaches, past the last mass on its way.
 OutgoingRay ray_from_line(const GeodesicRay<double>& ray, std::span<const PointMass> masses) {
-  if (ray.captured) return {};
+  if (ray.captured || ray.unresolved) return {};
   double along = 0.0;
   for (const PointMass& mass : masses)
     along = std::max(along, (mass.position - ray.position).dot(ray.direction));

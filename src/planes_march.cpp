@@ -206,8 +206,9 @@ void march_on(const Deflectors& deflectors, std::size_t passed, RayPath<Number>&
         nearest_ahead(deflectors.planes, left, value_of(ray.start), value_of(ray.direction), last);
     if (next == kNone) return;
     const auto turning = turn_at(deflectors.planes[next], false, path);
-    path.captured = !turning || path.bends == kMaxCrossings;
-    if (path.captured) return;
+    path.captured = !turning;
+    path.unresolved = turning && path.bends == kMaxCrossings;
+    if (path.ended()) return;
     go_on(*turning, false, path);
     left[next] = value_of(path.segments.back().direction);
     last = next;

@@ -44,6 +44,7 @@ Probe probe(const Scene& scene, const Plan& plan, FilmPosition film) {
   for (std::size_t k = 0; k < scene.surfaces.size(); ++k) result.surfaces.push_back(probed(hits[k]));
   const SurfaceHit<Dual>& sky = hits.back();
   result.captured = sky.outcome == Outcome::Captured;
+  result.unresolved = sky.outcome == Outcome::Unresolved;
   result.first = camera.axes.parent_from_local(direction_from_film<double>(camera, film));
   result.last = camera.axes.parent_from_local(sky.direction);
   if (plan.method != Method::Geodesic) {

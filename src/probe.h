@@ -33,6 +33,7 @@ struct Probe {
   FilmPosition film;
   bool seen = true;  // false outside a fisheye's circle
   bool captured = false;
+  bool unresolved = false;                // given up: what becomes of it is not known
   Vec3 first{0};                          // unit vector in the world, at the camera
   Vec3 last{0};                           // after the last bend
   std::size_t recipe = 0;                 // of the plan's recipes, by `planes`

@@ -48,14 +48,17 @@ struct Passage {
 /// A ray from the camera to where it ends or leaves.
 template <class Number>
 struct RayPath {
-  std::vector<RaySegment<Number>> segments;  // never empty; the last one is infinite unless it is captured
+  std::vector<RaySegment<Number>> segments;  // never empty; the last one is infinite unless it ended
   std::vector<Number> lengths;               // metres along the ray from the camera to each segment's start
   std::vector<Passage<Number>> passages;
-  int bends = 0;          // planes that bent it
-  bool captured = false;  // it ended in a mass, or found no way out between the planes
+  int bends = 0;            // planes that bent it
+  bool captured = false;    // it ended in a mass
+  bool unresolved = false;  // it was given up between the planes, after kMaxCrossings
+
+  bool ended() const { return captured || unresolved; }
 };
 
-/// A ray that has crossed planes this often, to and fro, is taken to be captured.
+/// A ray that has crossed planes this often, to and fro, is given up: what becomes of it is not known.
 inline constexpr int kMaxCrossings = 1000;
 
 /// A path that begins at `start` along the unit vector `direction`.

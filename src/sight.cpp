@@ -97,6 +97,16 @@ TraceBatch make_batch(const Sight& sight) {
   return batch;
 }
 
+int unresolved_rays(const TraceBatch& batch, std::size_t count) {
+  int unresolved = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    unresolved += std::any_of(batch.surfaces.begin(), batch.surfaces.end(), [i](const SurfaceBatch& surface) {
+      return surface.outcome[i] == Outcome::Unresolved;
+    });
+  }
+  return unresolved;
+}
+
 void clear_bodies(const Sight& sight, TraceBatch& batch) {
   for (std::size_t k = 0; k < sight.surfaces.size(); ++k) {
     if (is_body(sight.surfaces[k])) clear(batch.surfaces[k]);

@@ -33,6 +33,9 @@ struct Sight {
 /// A batch with room for what is asked; nothing is met yet.
 TraceBatch make_batch(const Sight& sight);
 
+/// How many of the first `count` rays were given up.
+int unresolved_rays(const TraceBatch& batch, std::size_t count);
+
 /// Sets the bodies to nothing met: what lies at infinity is written for every ray.
 void clear_bodies(const Sight& sight, TraceBatch& batch);
 

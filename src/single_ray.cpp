@@ -13,11 +13,14 @@
 namespace lensplane {
 namespace {
 
+/// Derivatives are as right as files hold them.
+constexpr double kDerivativesError = 1e-7;
+
 /// What a ray that meets nothing has: its direction as far as it goes.
 template <class Number>
 SurfaceHit<Number> no_hit(const GeodesicRay<Number>& ray) {
   SurfaceHit<Number> hit;
-  hit.outcome = ray.captured ? Outcome::Captured : Outcome::Missed;
+  hit.outcome = ray.captured ? Outcome::Captured : ray.unresolved ? Outcome::Unresolved : Outcome::Missed;
   hit.direction = value_of(ray.direction);
   return hit;
 }
@@ -69,7 +72,7 @@ RayHits<Number> hits_of(const Sight& sight, FilmPosition film, const Vector<Numb
       hits.push_back(body.hit ? hit_of_body(surface, sight.camera, film, first, body) : no_hit(ray));
     } else if (is_bent(surface)) {
       hits.push_back(meet_plate(sight.camera, film, first, first));
-    } else if (ray.captured) {
+    } else if (ray.captured || ray.unresolved) {
       hits.push_back(no_hit(ray));
     } else {
       hits.push_back(std::holds_alternative<Plate>(surface)
@@ -97,8 +100,9 @@ std::vector<RayHits<Number>> trace_curved_rays(const Sight& sight, const Plan& p
   std::vector<Vector<Number>> first;
   for (const FilmPosition film : films) first.push_back(direction_from_film<Number>(sight.camera, film));
   const Vector<Number> camera(Number(0.0), Number(0.0), Number(0.0));
-  const auto rays = trace_geodesics<Number>(scene.masses, camera, first, plan.geodesic_tolerance,
-                                            {scene.balls, scene.discs});
+  const auto rays =
+      trace_geodesics<Number>(scene.masses, camera, first, plan.geodesic_tolerance,
+                              {scene.balls, scene.discs}, {sight.effects.delay, kDerivativesError});
   std::vector<RayHits<Number>> hits;
   for (std::size_t i = 0; i < films.size(); ++i) {
     hits.push_back(hits_of(sight, films[i], first[i], rays[i]));

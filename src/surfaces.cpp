@@ -129,8 +129,8 @@ SurfaceHit<Number> meet(const Surface& surface, const Camera& camera, FilmPositi
   if (is_bent(surface)) return meet_plate(camera, film, first, first);
   const RaySegment<Number>& end = path.segments.back();
   SurfaceHit<Number> hit;
-  if (path.captured) {
-    hit.outcome = Outcome::Captured;
+  if (path.ended()) {
+    hit.outcome = path.captured ? Outcome::Captured : Outcome::Unresolved;
     hit.distance = kInfinity;
     hit.direction = value_of(end.direction);
   } else {

@@ -24,11 +24,12 @@ Vector<Number> local_from_parent(const Basis& axes, const Vector<Number>& v) {
 }
 
 enum class Outcome : std::uint8_t {
-  Hit,       // (s, t) says where
-  Missed,    // the ray goes past the surface, or meets it less often than is asked for
-  Behind,    // the ray runs where a plate has no picture: sideways or away from it
-  Captured,  // the ray ended in a mass before it met the surface
-  Unseen,    // no ray: the film position lies outside a fisheye's circle
+  Hit,         // (s, t) says where
+  Missed,      // the ray goes past the surface, or meets it less often than is asked for
+  Behind,      // the ray runs where a plate has no picture: sideways or away from it
+  Captured,    // the ray ended in a mass before it met the surface
+  Unseen,      // no ray: the film position lies outside a fisheye's circle
+  Unresolved,  // the ray was given up before it met the surface: nobody knows what it would have met
 };
 
 template <class Number>

@@ -35,6 +35,8 @@ std::string_view name_of(Outcome outcome) {
       return "captured";
     case Outcome::Unseen:
       return "unseen";
+    case Outcome::Unresolved:
+      return "unresolved";
   }
   return {};
 }
@@ -80,6 +82,7 @@ std::string surface_table(const Shot& shot, const LayerSurface& of, const Probed
 
 std::string fate_of(const Probe& probe) {
   if (!probe.seen) return "no light: outside the circle of the fisheye";
+  if (probe.unresolved) return "unresolved: given up on its way";
   return probe.captured ? "captured by a lens" : "goes on for ever";
 }
 
@@ -140,6 +143,7 @@ std::string json_from_probe(const Shot& shot, const ProbedFrame& probed) {
                {"in_frame", in_frame(probed)},
                {"seen", probe.seen},
                {"captured", probe.captured},
+               {"unresolved", probe.unresolved},
                {"first", json_from_vector(probe.first)},
                {"last", json_from_vector(probe.last)},
                {"plan", describe(probed.plan)},

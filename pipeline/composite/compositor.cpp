@@ -33,7 +33,7 @@ struct Tile {
 /// What a tile counts beside its picture.
 struct TileCounts {
   std::vector<double> hits;
-  std::int64_t rays = 0;
+  std::int64_t rays = 0, unresolved = 0;
   std::int64_t refined = 0;
 };
 
@@ -152,7 +152,10 @@ class TileTaker {
         rays, batch_, position,
         [&](TraceBatch& batch, std::size_t count) {
           const Found found = trace_batch(batch);
-          if (found != Found::NothingNew) counts_.rays += static_cast<std::int64_t>(count);
+          if (found != Found::NothingNew) {
+            counts_.rays += static_cast<std::int64_t>(count);
+            counts_.unresolved += unresolved_rays(batch, count);
+          }
           return found == Found::Something;
         },
         use);
@@ -324,6 +327,7 @@ Composite composite(const Tracer& tracer, const std::vector<SurfaceLook>& looks,
   for (const TileCounts& of_tile : counts) {  // in one order, so that the sums are always the same
     for (std::size_t k = 0; k < looks.size(); ++k) result.hits[k] += of_tile.hits[k];
     result.rays += of_tile.rays;
+    result.unresolved += of_tile.unresolved;
     result.refined += of_tile.refined;
   }
   return result;
@@ -361,6 +365,7 @@ void add(const Composite& other, Composite& sum) {
   }
   for (std::size_t k = 0; k < sum.hits.size(); ++k) sum.hits[k] += other.hits[k];
   sum.rays += other.rays;
+  sum.unresolved += other.unresolved;
   sum.refined += other.refined;
 }
 

@@ -27,9 +27,10 @@ struct ShadowedPicture {
 };
 
 struct Composite : ShadowedPicture {
-  std::vector<double> hits;  // per surface: how many pixels of the frame, without overscan, it covers
-  std::int64_t rays = 0;     // all that were traced
-  std::int64_t refined = 0;  // pixels that got more than one ray
+  std::vector<double> hits;     // per surface: how many pixels of the frame, without overscan, it covers
+  std::int64_t rays = 0;        // all that were traced
+  std::int64_t unresolved = 0;  // of them, given up: they see nothing
+  std::int64_t refined = 0;     // pixels that got more than one ray
 };
 
 /// The picture that the tracer's camera takes; `looks` in the order of its surfaces. The tracer's plan has to

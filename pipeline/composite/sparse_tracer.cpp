@@ -30,8 +30,10 @@ Found SparseTracer::trace(TraceBatch& batch) {
   const EmptySpace::Known known = empty_.known_of(batch);
   if (known == EmptySpace::Known::MeetsNothing) return Found::NothingNew;
   if (known == EmptySpace::Known::Nothing && all_bodies_ && last_met_nothing_ &&
-      plain_rays_meet_nothing(batch))
+      plain_rays_meet_nothing(batch)) {
+    for (SurfaceBatch& surface : batch.surfaces) surface.outcome.fill(Outcome::Missed);
     return Found::Nothing;
+  }
   tracer_.trace(batch);
   last_met_nothing_ = meets_nothing(batch);
   return last_met_nothing_ ? Found::Nothing : Found::Something;
@@ -41,7 +43,7 @@ bool SparseTracer::plain_rays_meet_nothing(const TraceBatch& batch) {
   std::copy_n(batch.x, kBatchSize, plain_batch_.x);
   std::copy_n(batch.y, kBatchSize, plain_batch_.y);
   plain_.trace(plain_batch_);
-  return meets_nothing(plain_batch_);
+  return meets_nothing(plain_batch_) && unresolved_rays(plain_batch_, kBatchSize) == 0;
 }
 
 }  // namespace lensplane

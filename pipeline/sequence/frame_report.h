@@ -42,7 +42,8 @@ struct FrameReport {
   int frame = 0;
   bool already_done = false;
   double seconds = 0;
-  std::int64_t rays = 0;  // film positions traced through the lenses
+  std::int64_t rays = 0;        // film positions traced through the lenses
+  std::int64_t unresolved = 0;  // of them, given up on their way: they see nothing
   std::array<PhaseCost, kPhaseNames.size()> phases{};
   std::vector<Amplification> amplifications;
   std::vector<ReplacedPixels> replaced;
@@ -56,6 +57,7 @@ struct FrameReport {
 /// frame's.
 inline void add_costs(const FrameReport& part, FrameReport& sum) {
   sum.rays += part.rays;
+  sum.unresolved += part.unresolved;
   for (std::size_t i = 0; i < sum.phases.size(); ++i) {
     sum.phases[i].seconds += part.phases[i].seconds;
     sum.phases[i].bytes += part.phases[i].bytes;

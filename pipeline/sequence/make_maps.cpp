@@ -162,6 +162,7 @@ EmptySpace make_maps(const Shot& shot, int frame, const FrameSetup& setup, Frame
     for (LayerFile& file : files) writing.bytes += file.file->commit();
   });
   report.rays += bands.rays();
+  report.unresolved += bands.unresolved();
   return empty;
 }
 

@@ -61,6 +61,7 @@ Composite take_instant(const Shot& shot, ShotAssets& assets, int frame, const Mo
       add_stars(tracer, looks, *assets.stars.field(k, moment.time), instant.picture);
     }
     report.rays += instant.rays;
+    report.unresolved += instant.unresolved;
     return instant;
   });
 }

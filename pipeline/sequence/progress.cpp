@@ -82,6 +82,11 @@ std::string line_of(const FrameReport& report) {
     line += a.factor ? fmt::format(", A({}) = {:.3f}", a.layer, *a.factor)
                      : fmt::format(", A({}): not in the frame without lenses", a.layer);
   }
+  if (report.unresolved > 0) {
+    line += fmt::format(", {} {} given up and {} nothing", report.unresolved,
+                        report.unresolved == 1 ? "ray was" : "rays were",
+                        report.unresolved == 1 ? "sees" : "see");
+  }
   for (const ReplacedPixels& replaced : report.replaced) {
     line += fmt::format(", {}: {} {} black for NaN or infinity", replaced.layer, replaced.count,
                         replaced.count == 1 ? "pixel" : "pixels");

@@ -29,15 +29,22 @@ Json json_from_report(const FrameReport& report) {
   for (const ReplacedPixels& r : report.replaced) replaced[r.layer] = r.count;
   Json missing = Json::object();
   for (const MissingFrame& m : report.missing) missing[m.layer] = m.shown ? Json(*m.shown) : Json();
-  return {{"replaced_pixels", replaced},         {"missing_frames", missing},     {"frame", report.frame},
-          {"already_done", report.already_done}, {"seconds", report.seconds},     {"rays", report.rays},
-          {"phases", json_from_phases(report)},  {"amplification", amplification}};
+  return {{"replaced_pixels", replaced},
+          {"missing_frames", missing},
+          {"frame", report.frame},
+          {"already_done", report.already_done},
+          {"seconds", report.seconds},
+          {"rays", report.rays},
+          {"unresolved_rays", report.unresolved},
+          {"phases", json_from_phases(report)},
+          {"amplification", amplification}};
 }
 
 FrameReport sum_of(const std::vector<FrameReport>& reports) {
   FrameReport sum;
   for (const FrameReport& report : reports) {
     sum.rays += report.rays;
+    sum.unresolved += report.unresolved;
     for (std::size_t i = 0; i < kPhaseNames.size(); ++i) {
       sum.phases[i].seconds += report.phases[i].seconds;
       sum.phases[i].bytes += report.phases[i].bytes;
@@ -51,8 +58,13 @@ FrameReport sum_of(const std::vector<FrameReport>& reports) {
 std::string json_from_reports(const std::string& shot, int threads, double seconds,
                               const std::vector<FrameReport>& reports) {
   const FrameReport sum = sum_of(reports);
-  Json json = {{"lensplane", kVersion},  {"shot", shot},     {"threads", threads},
-               {"seconds", seconds},     {"rays", sum.rays}, {"phases", json_from_phases(sum)},
+  Json json = {{"lensplane", kVersion},
+               {"shot", shot},
+               {"threads", threads},
+               {"seconds", seconds},
+               {"rays", sum.rays},
+               {"unresolved_rays", sum.unresolved},
+               {"phases", json_from_phases(sum)},
                {"frames", Json::array()}};
   for (const FrameReport& report : reports) json["frames"].push_back(json_from_report(report));
   return json.dump(2) + "\n";
