@@ -2,18 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints the coefficients in src/exact_law.h, and how far each fit is from the exact angle.
 
-Needs mpmath (Debian: python3-mpmath). Takes about half a minute.
+Needs mpmath (Debian: python3-mpmath). Takes a few minutes.
 
 The exact angle is Darwin's closed form in elliptic integrals, as a function of x = b_c/b. It grows like -ln(1 - x)
 towards x = 1, so polynomials A and B with alpha = x A(x) - B(x) ln(1 - x) follow it from 0 to 1, and one polynomial F
-with alpha = x F(x) is enough well below 1. Each fit minimises the sum of the squares of the relative errors at the nodes
+with alpha = x F(x) is enough well below 1. What the angle is more than the weak law, integrated from b to infinity, is
+b_c g(x), g(x) = x A'(x) - B'(x) (1 - x) ln(1 - x). Each fit minimises the sum of the squares of the relative errors at the nodes
 of a Chebyshev polynomial, which comes within a small factor of the smallest possible worst error; the errors printed
 are the worst ones on another, finer grid that runs to 1 - x = 1e-16.
 """
 
 from functools import cache
 
-from mpmath import acos, asin, cos, ellipf, ellipk, log, lu_solve, matrix, mp, mpf, nstr, pi, sqrt
+from mpmath import acos, asin, cos, ellipf, ellipk, factorial, gamma, log, lu_solve, matrix, mp, mpf, nstr, pi, quad, sqrt
 
 mp.dps = 70  # powers of x are a poor basis: solving for their coefficients costs some 40 digits
 
@@ -70,6 +71,36 @@ def fit_far(percent, terms):
     return [first] + c, error
 
 
+@cache
+def excess_beyond(x):
+    """g(x): up to the middle by the series of alpha, then by quadrature."""
+    critical_ratio, half = 3 * sqrt(mpf(3)), mpf(1) / 2
+    if x > half:
+        return excess_beyond(half) + quad(lambda y: (alpha(y) - 4 * y / critical_ratio) / y**2, [half, (half + x) / 2, x])
+    total, n = mpf(0), 2
+    while True:
+        a = sqrt(pi) * mpf(2) ** n * gamma((3 * n + 1) / mpf(2)) / (factorial(n) * gamma(n / mpf(2) + 1))
+        term = a / critical_ratio**n * x ** (n - 1) / (n - 1)
+        total, n = total + term, n + 1
+        if term < mpf(10) ** -45:
+            return total
+
+
+def fit_delay(terms):
+    """A' and B' in powers of x - 1/2, and the worst error over x."""
+
+    def basis(x):
+        powers = [(x - mpf(1) / 2) ** j for j in range(terms)]
+        return [x * p for p in powers] + [-(1 - x) * log(1 - x) * p for p in powers]
+
+    points = nodes(64, mpf(1))
+    rows = [[value / x for value in basis(x)] for x in points]
+    c = list(lu_solve(matrix(rows), matrix([excess_beyond(x) / x for x in points])))
+    grid = [(i + mpf(1) / 3) / 60 for i in range(60)] + [1 - mpf(10) ** (-mpf(i) / 2) for i in range(2, 30)]
+    error = max(abs(sum(k * v for k, v in zip(c, basis(x))) - excess_beyond(x)) / x for x in grid)
+    return c[:terms], c[terms:], error
+
+
 def show(name, coefficients):
     print(f"{name} = {{" + ", ".join(repr(float(c)) for c in coefficients) + "};")
 
@@ -82,6 +113,10 @@ if __name__ == "__main__":
     far, error = fit_far(15, 11)
     print(f"// far: worst relative error {nstr(error, 2)}")
     show("kFar", far)
+    a, b, error = fit_delay(10)
+    print(f"// delay: worst error {nstr(error, 2)} x")
+    show("kDelayA", a)
+    show("kDelayB", b)
     critical_ratio = 3 * sqrt(mpf(3))
     print(f"kRest = {float(critical_ratio - mpf(float(critical_ratio)))!r};")
     for percent in (5, 15, 25):

@@ -178,7 +178,11 @@ SurfaceHit<Number> meet_body(const Surface& surface, const Camera& camera, FilmP
   if constexpr (std::is_same_v<Number, Dual>)
     hit.magnification = magnification_on_body(surface, first, at.point);
   hit.distance = value_of(path.lengths[segment]) + at.way;
-  hit.delay = (hit.distance - length(value_of(at.point))) + shapiro_delay(path, hit.distance);
+  Vec3 aside(0);  // the light runs beside its stretch
+  if (finite && !is_chord(segment))
+    aside = value_of(finite_shift(*finite, path.segments[segment], Number(at.way)));
+  hit.delay = excess_over_straight_line(excess_until(path, segment), at.way, aside) +
+              shapiro_delay(path, hit.distance);
   if (finite) hit.delay += delay_by_masses_ahead(*finite, path, segment, hit.distance);
   return hit;
 }

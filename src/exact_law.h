@@ -39,6 +39,18 @@ inline constexpr std::array kNearB = {1.2003268396374975,   -0.5943109784779983,
                                       0.48873744791833856,  -0.24791030898825245,  0.08496856086735607,
                                       -0.01781872074377105, 0.0019250059462176115, -7.229447423117849e-05};
 
+// The integral of what the exact angle is more than the weak law, from b to infinity: b_c times
+//
+//   g(x) = x A'(x) - B'(x) (1 - x) ln(1 - x),   worst error of the fit 1.4e-14 x.
+
+inline constexpr std::array kDelayA = {
+    2.0542779872224015, -4.604040400468145, 8.291601564693288,   -11.607120389423171, 11.973202317124931,
+    -8.617510202533799, 4.049203276520545,  -1.1224206605093867, 0.15206927712599685, -0.006350568414413598};
+
+inline constexpr std::array kDelayB = {
+    -2.1833865037927147, 4.633250514399737,  -7.855560886885403, 10.11004932591156,    -9.335848545058054,
+    5.844099636943217,   -2.306801352978639, 0.5119064512953052, -0.05129319656998502, 0.0013256286977209799};
+
 /// Up to which x = b_c/b the far form holds: from b = 34.6 m on.
 inline constexpr double kFarRatio = 0.15;
 
@@ -144,6 +156,23 @@ LENSPLANE_ALWAYS_INLINE constexpr Shares shares_of(double m, double b) {
   const CriticalRadius critical = critical_radius(m);
   const double per_b = 1.0 / b;
   return {critical.b_c * per_b, ((b - critical.b_c) - critical.rest) * per_b};
+}
+
+/// g(x)/x far away: kFar, whose first term is the weak law, integrated term by term.
+inline constexpr auto kDelayFar = [] {
+  std::array<double, kFar.size() - 1> c{};
+  for (std::size_t i = 0; i < c.size(); ++i) c[i] = kFar[i + 1] / static_cast<double>(i + 1);
+  return c;
+}();
+
+/// What the exact angle is more than 4 m/b, integrated from b to infinity, in metres; 0 for b <= b_c.
+LENSPLANE_ALWAYS_INLINE inline double exact_excess_beyond(double m, double b) {
+  const auto [x, u] = shares_of(m, b);
+  const double share = u > 0.0 ? u : 1.0;
+  const double a_of = polynomial_value(kDelayA, x - 0.5), b_of = polynomial_value(kDelayB, x - 0.5);
+  const double near = x * a_of - b_of * share * log_of_share(1.0 - share, share);
+  const double far = x * polynomial_value(kDelayFar, x);
+  return u > 0.0 ? kCriticalRatio * m * (x <= kFarRatio ? far : near) : 0.0;
 }
 
 /// The exact angle and its derivative for b > kCriticalRatio m; for smaller b some numbers without meaning.

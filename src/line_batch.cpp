@@ -48,6 +48,10 @@ void start_panorama(const Camera& camera, const BatchArray& x, const BatchArray&
 
 }  // namespace
 
+void clear_excess(ExcessLane& excess) {
+  for (int i = 0; i < kBatchSize; ++i) excess.set(i, PathExcess{});
+}
+
 template <class Number>
 void start_lines(const Camera& camera, double slope, const BatchArray& x, const BatchArray& y, bool measured,
                  LineBatch<Number>& rays) {

@@ -18,6 +18,32 @@ bool is_finite(const Vector<Number>& v) {
   return std::isfinite(value_of(v.x)) && std::isfinite(value_of(v.y)) && std::isfinite(value_of(v.z));
 }
 
+/// A direction after a bend, and by what it has turned, without loss of digits.
+template <class Number>
+struct Turned {
+  Vector<Number> direction;
+  Vec3 turn;
+};
+
+template <class Number>
+std::optional<Turned<Number>> turned(const Vector<Number>& direction, const Vector<Number>& to_source,
+                                     double m) {
+  using std::cos, std::sin;
+  const Number b = length(to_source);
+  const double alpha0 = weak_deflection(m, value_of(b));
+  if (!std::isfinite(alpha0)) return std::nullopt;
+  const Number alpha = chained(b, alpha0, -alpha0 / value_of(b));
+  const Vector<Number> v_g = to_source * reciprocal(b);                // (1)
+  const Vector<Number> across = v_g - direction * v_g.dot(direction);  // (2), (3): V_ray x (V_g x V_ray)
+  const Number share = length(across);
+  if (value_of(share) == 0.0) return std::nullopt;
+  const Vector<Number> v_rot = across * reciprocal(share);
+  const Vector<Number> v_new = direction * cos(alpha) + v_rot * sin(alpha);  // (5), (6) times cos(alpha)
+  const double half = std::sin(0.5 * alpha0);
+  const Vec3 turn = value_of(v_rot) * std::sin(alpha0) - value_of(direction) * (2.0 * half * half);
+  return Turned<Number>{v_new * reciprocal(length(v_new)), turn};
+}
+
 /// The part of a unit `direction` along the normal of a plane: the rate at which the ray nears it.
 template <class Number>
 Number rate(const LensPlane& plane, const Vector<Number>& direction) {
@@ -51,21 +77,24 @@ bool cross(const LensPlane& plane, const Vector<Number>& crossing, const Number&
   path.segments.back().length = stretch;
   const Number travelled = path.lengths.back() + stretch;
   Vector<Number> v_ray = path.segments.back().direction;
+  Corner corner;
   path.unresolved = path.bends == kMaxCrossings;
   if (path.unresolved) return false;
   for (const Source& source : plane.sources) {
     const Vector<Number> to_source = constant<Number>(source.position) - crossing;
-    const std::optional<Vector<Number>> bent = bend(v_ray, to_source, source.m);
+    const std::optional<Turned<Number>> bent = turned(v_ray, to_source, source.m);
     path.captured = !bent;
     if (path.captured) return false;
     const Number b = length(to_source);
     const Number alpha = chained(b, weak_deflection(source.m, value_of(b)),
                                  -weak_deflection(source.m, value_of(b)) / value_of(b));
     path.passages.push_back({source.lens, source.m, length(source.position), b, alpha, travelled});
-    v_ray = *bent;
+    v_ray = bent->direction;
+    corner.turn += bent->turn;
   }
   path.segments.push_back({crossing, v_ray, Number(kInfinity), ++path.bends});
   path.lengths.push_back(travelled);
+  path.corners.push_back(corner);
   return true;
 }
 
@@ -119,18 +148,8 @@ RayPath<Number> march_outward(const std::vector<LensPlane>& planes, RayPath<Numb
 template <class Number>
 std::optional<Vector<Number>> bend(const Vector<Number>& direction, const Vector<Number>& to_source,
                                    double m) {
-  using std::cos, std::sin;
-  const Number b = length(to_source);
-  const double alpha0 = weak_deflection(m, value_of(b));
-  if (!std::isfinite(alpha0)) return std::nullopt;
-  const Number alpha = chained(b, alpha0, -alpha0 / value_of(b));
-  const Vector<Number> v_g = to_source * reciprocal(b);                // (1)
-  const Vector<Number> across = v_g - direction * v_g.dot(direction);  // (2), (3): V_ray x (V_g x V_ray)
-  const Number share = length(across);
-  if (value_of(share) == 0.0) return std::nullopt;
-  const Vector<Number> v_rot = across * reciprocal(share);
-  const Vector<Number> v_new = direction * cos(alpha) + v_rot * sin(alpha);  // (5), (6) times cos(alpha)
-  return v_new * reciprocal(length(v_new));
+  const auto bent = turned(direction, to_source, m);
+  return bent ? std::optional(bent->direction) : std::nullopt;
 }
 
 template <class Number>

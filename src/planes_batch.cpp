@@ -10,6 +10,8 @@
 
 #include "src/bend_strength.h"
 #include "src/inlining.h"
+#include "src/planes_delay.h"
+#include "src/planes_sums.h"
 
 namespace lensplane {
 namespace {
@@ -22,12 +24,6 @@ struct Approach {
   VectorLane<Number> across;  // from the foot point to the mass
   Lane<Number> along;         // from the start to the foot point
   Lane<Number> measure;       // b^2 with finite distance, otherwise what the law needs of it
-};
-
-/// How a kernel's mass bends.
-struct Bending {
-  Law law;
-  bool company;  // with what other masses add
 };
 
 /// A plane with one mass: the line turns about it. Rays have to stay below `limit_z` in direction.
@@ -165,63 +161,20 @@ LENSPLANE_KERNEL void turn_about_with_tangents(const Deflector& deflector, doubl
   }
 }
 
-/// The sums of planes_march.cpp over the masses of one plane.
-template <class Number>
-struct SumsBatch {
-  VectorLane<Number> reference;  // the point of the ray nearest to the plane's centre
-  Lane<Number> ahead;            // from the start to there
-  VectorLane<Number> bend, kink, shift, outward;
-  Lane<double> arc;
-};
-
 template <class Number>
 LENSPLANE_KERNEL void begin_sums(const Vec3& centre, const LineBatch<Number>& rays, SumsBatch<Number>& sums) {
-  const Vector<Number> zero = constant<Number>(Vec3(0));
 #pragma GCC ivdep
-  for (int i = 0; i < kBatchSize; ++i) {
-    const Vector<Number> direction = rays.direction.get(i);
-    const Vector<Number> start = rays.start.get(i);
-    const Number ahead = dot(difference(constant<Number>(centre), start), direction);
-    sums.reference.set(i, sum(start, scaled(direction, ahead)));
-    sums.ahead.set(i, ahead);
-    sums.bend.set(i, zero);
-    sums.kink.set(i, zero);
-    sums.shift.set(i, zero);
-    sums.outward.set(i, zero);
-    sums.arc.v[i] = 0.0;
-  }
+  for (int i = 0; i < kBatchSize; ++i) begin_sum(i, centre, rays, sums);
 }
 
 template <class Number, Bending bending, Reach reach, bool finite, bool path>
 LENSPLANE_KERNEL void add_to_sums(const Deflector& deflector, double limit_z, LineBatch<Number>& rays,
                                   SumsBatch<Number>& sums) {
-  constexpr Law law = bending.law;
-  const Vector<Number> mass = constant<Number>(deflector.position);
   const Limits<reach> limits(deflector, finite);
 #pragma GCC ivdep
   for (int i = 0; i < kBatchSize; ++i) {
-    const Vector<Number> direction = rays.direction.get(i);
-    const Vector<Number> to_mass = difference(mass, sums.reference.get(i));
-    const Number along = dot(to_mass, direction);
-    const Vector<Number> across = difference(to_mass, scaled(direction, along));
-    const Number b2 = dot(across, across);
-    Strength<Number> strength;
-    bool ahead = true;
-    if constexpr (finite) {
-      const Number from_camera = dot(mass, direction);
-      ahead = value_of(from_camera) >= 0.0;
-      strength = finite_strength<law, reach>(deflector, b2, from_camera);
-      sums.outward.set(i, sum(sums.outward.get(i), scaled(across, Number(limits.n - 1.0))));
-    } else {
-      strength = full_strength<law, reach>(deflector.m, measured<law, reach>(b2));
-    }
-    if constexpr (bending.company) strength = with_company(deflector.company, b2, strength);
-    const Vector<Number> bend = scaled(across, strength.per_b);
-    sums.bend.set(i, sum(sums.bend.get(i), bend));
-    sums.kink.set(i, sum(sums.kink.get(i), scaled(bend, along)));
-    sums.shift.set(i, sum(sums.shift.get(i), scaled(bend, strength.arc)));
-    if constexpr (path) sums.arc.v[i] += value_of(strength.arc);
-    mark(i, limits, value_of(direction.z) < limit_z, ahead, value_of(b2), rays);
+    const auto [ahead, b2] = add_to_sum<Number, bending, reach, finite, path>(i, deflector, rays, sums);
+    mark(i, limits, value_of(rays.direction.z.get(i)) < limit_z, ahead, b2, rays);
   }
 }
 
@@ -254,26 +207,6 @@ LENSPLANE_KERNEL void turn_by_sums(const SumsBatch<Number>& sums, LineBatch<Numb
   }
 }
 
-/// Adds the Shapiro delay of a mass, for light from infinity: 2 m ln((z1 + r1) 2 D/b^2). See arrival_time.h.
-template <class Number>
-LENSPLANE_KERNEL void add_shapiro(const Deflector& deflector, LineBatch<Number>& rays) {
-  const Vec3 mass = deflector.position;
-  const double twice_distance = 2.0 * length(mass);
-#pragma GCC ivdep
-  for (int i = 0; i < kBatchSize; ++i) {
-    const Vec3 d = value_of(rays.direction.get(i));
-    const Vec3 to_mass = difference(mass, value_of(rays.start.get(i)));
-    const double along = dot(to_mass, d);
-    const Vec3 across = difference(to_mass, scaled(d, along));
-    const double b2 = dot(across, across);
-    const double z1 = rays.path.v[i] + along;
-    const double r1 = std::sqrt(z1 * z1 + b2);
-    const bool ahead = z1 >= 0.0;
-    const double ratio = (ahead ? z1 + r1 : 1.0) * twice_distance / (ahead ? b2 : r1 - z1);
-    rays.shapiro.v[i] += 2.0 * deflector.m * log_of_share(1.0 - ratio, ratio);
-  }
-}
-
 template <class Number, Bending bending, Reach reach, bool finite, bool path>
 void turn_about_one(const Deflector& deflector, double limit_z, LineBatch<Number>& rays) {
   if constexpr (std::is_same_v<Number, Dual> && !finite) {
@@ -285,13 +218,6 @@ void turn_about_one(const Deflector& deflector, double limit_z, LineBatch<Number
 
 template <class Number, Reach reach, bool finite, bool path>
 void pass_with(const DeflectorPlane& plane, double limit_z, LineBatch<Number>& rays) {
-  const auto by_bending = [](const Deflector& d, auto weak, auto second_order, auto exact, auto in_company) {
-    if (d.law == Law::Weak) return weak;
-    if (d.law == Law::SecondOrder) return second_order;
-    return d.company.weight == 0.0 ? exact : in_company;
-  };
-  constexpr Bending kWeak{Law::Weak, false}, kSecondOrder{Law::SecondOrder, false};
-  constexpr Bending kExact{Law::Exact, false}, kInCompany{Law::Exact, true};
   if (plane.deflectors.size() == 1) {
     const Deflector& deflector = plane.deflectors.front();
     by_bending(deflector, turn_about_one<Number, kWeak, reach, finite, path>,
@@ -352,9 +278,7 @@ void pass_plane(const Deflectors& deflectors, std::size_t plane, const PlanesWor
   // With one plane there is nothing that light which turns back could meet.
   const bool alone = deflectors.planes.size() == 1;
   const double limit_z = alone || !deflectors.flat ? std::numeric_limits<double>::infinity() : 0.0;
-  if (work.shapiro) {
-    for (const Deflector& deflector : passed.deflectors) add_shapiro(deflector, rays);
-  }
+  if (work.shapiro) add_delay(passed, deflectors.finite_distance, work.reach, rays);
   if (work.reach == Reach::Far) {
     pass_within<Number, Reach::Far>(passed, deflectors.finite_distance, work.path, limit_z, rays);
   } else {

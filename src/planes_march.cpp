@@ -26,6 +26,7 @@ struct Turning {
   Number ahead;  // from the start of the ray to the plane's reference point on it, metres; may be negative
   Line<Number> out;  // where the ray goes on: from the turned foot point
   Number arc;        // the way there, round the masses
+  Corner corner;     // the same as the path's length needs it
 };
 
 /// The deflectors' sums over one plane. Each deflector's foot point lies `along` past the reference point;
@@ -50,7 +51,16 @@ Turning<Number> turned(const Number& ahead, const Vector<Number>& reference, con
   const Vector<Number> rotated =
       inward - (sums.bend * r.versine + direction * r.sine) * inward.dot(sums.bend);
   const Vector<Number> out = direction * r.cosine + sums.bend * r.sine;
-  return {ahead, {reference - rotated + out * (sums.arc * r.sine), out}, sums.arc};
+  const Vector<Number> detour = out * (sums.arc * r.sine) - rotated;
+  const Vec3 turn = value_of(sums.bend * r.sine - direction * (sums.bend.dot(sums.bend) * r.versine));
+  const double longer = value_of(sums.arc * (1.0 - r.sine));
+  return {ahead, {reference + detour, out}, sums.arc, {turn, value_of(sums.arc), value_of(detour), longer}};
+}
+
+/// The corner of a ray that the plane, behind the camera, bends where it is.
+Corner at_camera(const Corner& corner, double ahead) {
+  const double lag = 0.5 * corner.turn.dot(corner.turn);  // 1 - cos
+  return {corner.turn, corner.arc, corner.detour - corner.turn * ahead, corner.longer + ahead * lag};
 }
 
 /// How far a ray runs to a plane. With finite distance it never goes backwards: a mass behind the camera
@@ -152,7 +162,8 @@ std::optional<Turning<Number>> turn_at(const DeflectorPlane& plane, bool finite_
     if (finite_distance) sums.outward += across * (deflector.index - 1.0);
     sums.arc += bent->alpha * b;
     path.passages.push_back({deflector.lens, deflector.m, length(deflector.position), b, bent->alpha,
-                             path.lengths.back() + ahead + along});
+                             path.lengths.back() + ahead + along, deflector.law,
+                             finite_distance ? deflector.index : 1.0, finite_distance});
   }
   return turned(ahead, reference, ray.direction, sums);
 }
@@ -170,6 +181,7 @@ void go_on(const Turning<Number>& turning, bool finite_distance, RayPath<Number>
   path.lengths.push_back(path.lengths.back() + way);
   path.segments.push_back({start, turning.out.direction, Number(kInfinity), ++path.bends});
   path.lengths.push_back(path.lengths.back() + turning.arc);
+  path.corners.push_back(behind ? at_camera(turning.corner, value_of(turning.ahead)) : turning.corner);
 }
 
 /// The number of the segment by which a ray leaves the outward plane number `plane`: each plane adds two.

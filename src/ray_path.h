@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "src/basis.h"
+#include "src/deflection.h"
 #include "src/dual.h"
+#include "src/path_excess.h"
 
 namespace lensplane {
 
@@ -43,6 +45,9 @@ struct Passage {
   Number b;          // metres from the mass to the ray's line; see below
   Number alpha;      // angle by which it bent the ray, radians
   Number path;  // metres along the ray from the camera to its closest approach; negative behind the start
+  Law law = Law::Weak;  // by which it bent the ray
+  double index = 1.0;   // Fermat index of its metric at the camera; 1 without finite distance
+  bool finite = false;  // is only as much of the bend counted as lies ahead of the camera?
 };
 
 /// A ray from the camera to where it ends or leaves.
@@ -51,12 +56,32 @@ struct RayPath {
   std::vector<RaySegment<Number>> segments;  // never empty; the last one is infinite unless it ended
   std::vector<Number> lengths;               // metres along the ray from the camera to each segment's start
   std::vector<Passage<Number>> passages;
-  int bends = 0;            // planes that bent it
-  bool captured = false;    // it ended in a mass
-  bool unresolved = false;  // it was given up between the planes, after kMaxCrossings
+  std::vector<Corner> corners;  // one for each plane that bent it
+  int bends = 0;                // planes that bent it
+  bool captured = false;        // it ended in a mass
+  bool unresolved = false;      // it was given up between the planes, after kMaxCrossings
 
   bool ended() const { return captured || unresolved; }
 };
+
+/// What a path is longer by up to the beginning of its segment number `last`. Each plane adds a corner; by
+/// `planes` the chord across it is a segment of its own, on which the ray counts as half turned.
+template <class Number>
+PathExcess excess_until(const RayPath<Number>& path, std::size_t last) {
+  PathExcess excess;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const RaySegment<Number>& segment = path.segments[i];
+    const auto bends = static_cast<std::size_t>(segment.bends);
+    const bool chord = i > 0 && segment.bends == path.segments[i - 1].bends;
+    if (chord) {
+      if (i == last && bends < path.corners.size()) excess.turn_by(path.corners[bends].turn * 0.5);
+      continue;
+    }
+    if (i > 0) excess.go_round(path.corners[bends - 1]);
+    if (i < last) excess.go(value_of(segment.length));
+  }
+  return excess;
+}
 
 /// A ray that has crossed planes this often, to and fro, is given up: what becomes of it is not known.
 inline constexpr int kMaxCrossings = 1000;
@@ -64,7 +89,7 @@ inline constexpr int kMaxCrossings = 1000;
 /// A path that begins at `start` along the unit vector `direction`.
 template <class Number>
 RayPath<Number> path_from(const Vector<Number>& start, const Vector<Number>& direction) {
-  return {{{start, direction}}, {Number(0.0)}, {}};
+  return {{{start, direction}}, {Number(0.0)}, {}, {}};
 }
 
 }  // namespace lensplane

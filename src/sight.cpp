@@ -41,8 +41,7 @@ void fill_along(const Sight& sight, const LineBatch<Number>& rays, int bends, Pa
   if (sight.effects.bends) std::fill_n(passes.bends, kBatchSize, bends);
   if (sight.effects.delay) {
     for (int i = 0; i < kBatchSize; ++i) {
-      const double wave_front = value_of(rays.start.get(i)).dot(value_of(rays.direction.get(i)));
-      passes.delay[i] = ((rays.path.v[i] - wave_front) + rays.shapiro.v[i]) / kLightSpeed;
+      passes.delay[i] = (excess_over_wave_front(rays.excess.get(i)) + rays.shapiro.v[i]) / kLightSpeed;
     }
   }
 }

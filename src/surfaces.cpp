@@ -136,7 +136,7 @@ SurfaceHit<Number> meet(const Surface& surface, const Camera& camera, FilmPositi
   } else {
     hit = std::holds_alternative<LatLong>(surface) ? meet_sky(camera, first, end.direction)
                                                    : meet_plate(camera, film, first, end.direction);
-    hit.delay = (value_of(path.lengths.back()) - value_of(end.start).dot(value_of(end.direction))) +
+    hit.delay = excess_over_wave_front(excess_until(path, path.segments.size() - 1)) +
                 shapiro_delay_from_infinity(path);
   }
   hit.bends = path.bends;

@@ -130,6 +130,7 @@ bool march_planes_batch(const Sight& sight, const Deflectors& deflectors, Reach 
   const bool bodies = sight.any_body();
   const PlanesWork work{reach, bodies || sight.effects.delay, sight.effects.delay};
   start_lines(sight.camera, sight.slope, batch.x, batch.y, work.path, rays);
+  if (work.shapiro) clear_excess(rays.excess);
   if (deflectors.blind) std::fill_n(rays.captured, kBatchSize, 1.0);
   const std::size_t count = deflectors.blind ? 0 : deflectors.outward;
   for (std::size_t k = 0; k < count; ++k) {
