@@ -3,8 +3,8 @@
 // The plan: what is simulated for a scene, and why, as a value that can be printed and tested.
 //
 // By `planes` with the law left open, every choice comes with a bound, in pixels of the output frame, on what
-// it leaves out: how much farther a law of more terms, a lens left out, or the finite distances would move
-// what any film position sees. The bounds add up to no more than the tolerance; see plan_bounds.h.
+// it leaves out: how far aside of its place any film position looks for it. (Where light is magnified, points
+// lie farther off on the film.) The bounds add up to no more than the tolerance; see plan_bounds.h.
 
 #pragma once
 
@@ -28,7 +28,7 @@ enum class Choice { Auto, On, Off };
 struct TraceSettings {
   Method method = Method::Planes;
   std::optional<Law> law;                 // nothing: as the tolerance needs it
-  double tolerance_px = 0.05;             // what may be left out, in pixels of the output frame, > 0
+  double tolerance_px = 0.05;             // how far aside pixels may look, in pixels of the frame, > 0
   Choice finite_distance = Choice::Auto;  // of the camera and of surfaces
   Effects effects;                        // called for by outputs
 };

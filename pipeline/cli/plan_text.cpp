@@ -146,6 +146,7 @@ std::string text_from_plan(const Shot& shot, const PlannedFrame& planned) {
   if (plan.method == Method::Planes) {
     head += fmt::format(", tolerance {}, left out at most {}", pixels(planned.settings.tolerance_px),
                         pixels(plan.bound_px));
+    head += "\n(how far aside pixels look; where light is stretched, points lie farther off on the film)";
   }
   if (plan.method == Method::Geodesic) head += fmt::format(", to {:.3g} rad", plan.geodesic_tolerance);
   return head + "\n" + lens_table(shot, planned) + effect_table(plan) + recipe_table(planned) +

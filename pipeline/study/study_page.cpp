@@ -97,7 +97,10 @@ std::string reference_text(const Study& study) {
          " Shares are of the pixels that see something by either trace, median, 99 % and most of those that "
          "do by both. The time of a frame is planning and tracing, the median of all runs. Bound: what the "
          "plan says that it leaves out at most; left out: what it does leave out of the same planes with "
-         "everything on. Memory is what was held beyond what had been held before.";
+         "everything on. Memory is what was held beyond what had been held before. Pixels say how far aside "
+         "of its place a "
+         "pixel looks; where light is stretched, next to critical curves, points lie farther off on the "
+         "film.";
 }
 
 std::string picture_table(const Study& study) {

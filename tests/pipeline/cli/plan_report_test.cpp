@@ -51,6 +51,7 @@ TEST(PlanText, SaysWhatBecomesOfEveryLensEffectAndTile) {
   const auto [shot, planned] = example(3);
   EXPECT_EQ(text_from_plan(shot, planned),
             "shot example, frame 1001: method planes, tolerance 0.05 px, left out at most 0.125 px\n"
+            "(how far aside pixels look; where light is stretched, points lie farther off on the film)\n"
             "\n"
             "  lens  mass    distance  law           moves at most  left out at most  why\n"
             "  a0    1 Msun  1 km      second-order  no limit       0.0625 px         near\n"
