@@ -92,14 +92,10 @@ std::vector<Footprint> footprints_by_jacobian(const WarpOptions& warp, const StM
   return footprints_from_differences(map, mapped);
 }
 
-/// An image has been through the filter of its own pixels: what is shown as large as it is stays as sharp.
-/// A little more is spared than that filter, so that the rounding of a map does not blur.
 std::vector<Footprint> footprints_of(const WarpOptions& warp, const StMap& map, const PixelWindows& picture) {
-  const Footprint point{.scale = 0};
-  if (warp.filter == "none") return std::vector<Footprint>(map.s.size(), point);
-  std::vector<Footprint> footprints = footprints_by_jacobian(warp, map, picture);
-  for (Footprint& footprint : footprints) footprint.spared = 1.02 * kPixelSigma * kPixelSigma;
-  return footprints;
+  if (warp.filter == "none")
+    return std::vector<Footprint>(map.s.size(), Footprint{});  // no wider than a point
+  return footprints_by_jacobian(warp, map, picture);
 }
 
 void write(const WarpOptions& warp, const ColourConfig& colours, const Picture& picture, SampleType type,

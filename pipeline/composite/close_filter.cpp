@@ -3,167 +3,32 @@
 #include "pipeline/composite/close_filter.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
-#include "pipeline/composite/gaussian_window.h"
-#include "pipeline/composite/surface_kernel.h"
-#include "pipeline/composite/weighted_sum.h"
-#include "src/batch.h"
-#include "src/inlining.h"
+#include "pipeline/composite/long_filter.h"
+#include "pipeline/composite/short_filter.h"
 
 namespace lensplane {
 namespace {
 
-// The variance of the triangle.
-constexpr double kTriangleVariance = 1.0 / 6;
-
-/// The whole numbers from `first` to `last`.
-struct Span {
-  int first, last;
-};
-
-Span span_around(double middle, double reach) {
-  return {static_cast<int>(std::ceil(middle - reach)), static_cast<int>(std::floor(middle + reach))};
-}
-
-/// The eight texels side by side that a kernel may reach around `middle`, and what they weigh.
-struct TapRun {
-  int first;
-  Taps taps;
-
-  LENSPLANE_ALWAYS_INLINE TapRun(const SurfaceKernel& kernel, double middle) {
-    const double before = std::floor(middle);
-    first = static_cast<int>(before) + SurfaceKernel::kFirstTap;
-    taps = kernel.taps(static_cast<float>(middle - before));
-  }
-};
-
-int by_eights(int count) {
-  return (count + Taps::kCount - 1) / Taps::kCount * Taps::kCount;
-}
-
-/// What rows (or columns) weigh together.
-class Marginal {
- public:
-  LENSPLANE_ALWAYS_INLINE Marginal(double middle, double variance, double smoothness) {
-    set(middle, variance, smoothness);
-    std::fill_n(&weights_[static_cast<std::size_t>(count())], Taps::kCount, 0.0F);
-  }
-
-  Span span() const { return span_; }
-  /// The weights from number `i` on, and eight more of nothing.
-  const float* from(int i) const { return &weights_[static_cast<std::size_t>(i - span_.first)]; }
-
-  /// More than there can be, those eight included.
-  static constexpr int kMost = static_cast<int>(2 * 3.5 * kLongestCloseSigma) + 2 * Taps::kCount;
-
- private:
-  int count() const { return span_.last - span_.first + 1; }
-
-  LENSPLANE_ALWAYS_INLINE void set(double middle, double variance, double smoothness) {
-    if (variance <= kLargestCloseSigma * kLargestCloseSigma) {
-      const SurfaceKernel kernel(variance, smoothness);
-      const TapRun run(kernel, middle);
-      span_ = span_around(middle, kernel.reach());
-      for (int i = span_.first; i <= span_.last; ++i) {
-        weights_[static_cast<std::size_t>(i - span_.first)] = run.taps.weight[i - run.first];
-      }
-      return;
-    }
-    // Lowered as a whole: along one line that is as near to a Gaussian, and costs least.
-    const double widened = (variance + kTriangleVariance) / kVarianceLeft;
-    span_ = span_around(middle, std::sqrt(static_cast<double>(kCut) * widened));
-    const auto per_variance = static_cast<float>(1 / widened);
-    const auto offset = static_cast<float>(span_.first - middle);
-    for (int n = 0; n < count(); ++n) {
-      const float distance = offset + static_cast<float>(n);
-      const float q = distance * distance * per_variance;
-      weights_[static_cast<std::size_t>(n)] = std::max(0.0F, gaussian(q < kCut ? q : kCut) - kEdgeWeight);
-    }
-  }
-
-  Span span_{};
-  std::array<float, kMost> weights_;
-};
-
-/// The spread within a column (or a row): about a middle that moves by `slant` from one to the next.
-struct Conditional {
-  double slant;
-  SurfaceKernel kernel;
-};
-
-/// A variance and how cubic the surface is, along one axis.
-struct AxisFilter {
-  double variance, smoothness;
-
-  /// The variance of the surface's own weights.
-  double of_surface() const {
-    return kTriangleVariance + smoothness * (kCubicSplineVariance - kTriangleVariance);
-  }
-};
-
-/// `between`: the covariance of the two axes.
-Conditional conditional(const AxisFilter& along, const AxisFilter& across, double between) {
-  const double slant = between / (along.variance + along.of_surface());
-  return {slant, SurfaceKernel(std::max(0.0, across.variance - slant * between), across.smoothness)};
-}
-
-/// Columns are weighed, and within each its rows.
-LENSPLANE_ALWAYS_INLINE inline Rgba mean_along_rows(Texels& texels, double x, double y,
-                                                    const Marginal& columns, const Conditional& within) {
-  const Span all = columns.span();
-  const SurfaceKernel& kernel = within.kernel;
-  const double reach = kernel.reach();
-  const double sway = std::abs(within.slant) * std::max(x - all.first, all.last - x);
-  const Span rows = span_around(y, reach + sway);
-  const auto slant = static_cast<float>(within.slant);
-  EightsSum sum;
-  for (int row = rows.first; row <= rows.last; ++row) {
-    Span in_row = all;
-    if (sway > 1) {
-      const double middle = x + (row - y) / within.slant, half = reach / std::abs(within.slant);
-      in_row.first = static_cast<int>(std::ceil(std::max(static_cast<double>(all.first), middle - half)));
-      in_row.last = static_cast<int>(std::floor(std::min(static_cast<double>(all.last), middle + half)));
-      if (in_row.last < in_row.first) continue;
-    }
-    const int count = by_eights(in_row.last - in_row.first + 1);
-    const auto away = static_cast<float>(row - y - within.slant * (in_row.first - x));
-    alignas(32) float weights[Marginal::kMost];
-    std::copy_n(columns.from(in_row.first), count, weights);
-    kernel.weigh(away, -slant, count, weights);
-    const Rgba* texel = texels.row(0, in_row.first, row, count);
-    for (int n = 0; n < count; n += Taps::kCount) sum.add(weights + n, texel + n);
-  }
-  return sum.sum().mean_or([&] { return texels.nearest(0, x, y); });
-}
-
-/// Rows are weighed, and within each its columns.
-LENSPLANE_ALWAYS_INLINE inline Rgba mean_along_columns(Texels& texels, double x, double y,
-                                                       const Marginal& rows, const Conditional& within) {
-  EightsSum sum;
-  for (int row = rows.span().first; row <= rows.span().last; ++row) {
-    const TapRun run(within.kernel, x + within.slant * (row - y));
-    const float by = *rows.from(row);
-    alignas(32) float weights[Taps::kCount];
-    for (int n = 0; n < Taps::kCount; ++n) weights[n] = by * run.taps.weight[n];
-    sum.add(weights, texels.row(0, run.first, row, Taps::kCount));
-  }
-  return sum.sum().mean_or([&] { return texels.nearest(0, x, y); });
+/// How far the long filter has taken over from the short one, 0 to 1.
+double long_share(const Covariance& pixel) {
+  if (std::max(pixel.xx, pixel.yy) > kLargestShortVariance) return 1;
+  constexpr double kStarts = 0.9;
+  static_assert(kStarts / 2 >= kSmallestLongVariance);
+  if (pixel.xx + pixel.yy < kStarts) return 0;  // it cannot lean more
+  return std::clamp((leaning(pixel) - kStarts) / (kLargestLeaning - kStarts), 0.0, 1.0);
 }
 
 }  // namespace
 
-LENSPLANE_KERNEL Rgba close_mean(Texels& texels, double x, double y, const Covariance& pixel,
-                                 Smoothness smoothness) {
-  const AxisFilter columns{pixel.xx, smoothness.x}, rows{pixel.yy, smoothness.y};
-  const double across = pixel.xx - pixel.xy * pixel.xy / (pixel.yy + rows.of_surface());
-  if (across <= TapTable::kLargestSigma * TapTable::kLargestSigma) {
-    return mean_along_columns(texels, x, y, Marginal(y, rows.variance, rows.smoothness),
-                              conditional(rows, columns, pixel.xy));
-  }
-  return mean_along_rows(texels, x, y, Marginal(x, columns.variance, columns.smoothness),
-                         conditional(columns, rows, pixel.xy));
+Rgba close_mean(Texels& texels, double x, double y, const Covariance& pixel) {
+  const double share = long_share(pixel);
+  if (share == 0) return short_mean(texels, x, y, pixel);
+  const Rgba by_long = long_mean(texels, x, y, pixel);
+  if (share == 1) return by_long;
+  Rgba mean = short_mean(texels, x, y, pixel);
+  for (std::size_t c = 0; c < 4; ++c) mean[c] += static_cast<float>(share) * (by_long[c] - mean[c]);
+  return mean;
 }
 
 }  // namespace lensplane

@@ -93,8 +93,9 @@ class TileTaker {
   }
 
   /// What a ray sees that meets `points`.
-  SeenLight see(std::span<const SeenPoint> points, double scale, bool captured) {
-    const Rgba colour = viewer_.see(points, scale);
+  SeenLight see(std::span<const SeenPoint> points, double scale, bool captured,
+                SampleOffset offset = {0, 0}) {
+    const Rgba colour = viewer_.see(points, scale, offset);
     return {colour, captured ? uncovered(colour) : 0.0F};
   }
 
@@ -256,12 +257,14 @@ class TileTaker {
   /// Takes the rays number `from` to `until` of every pixel.
   void add_rays(const std::vector<EdgePixel*>& pixels, int from, int until) {
     const auto each = static_cast<std::size_t>(until - from);
+    const auto offset_of = [&](std::size_t n) -> const SampleOffset& {
+      return sample_offsets()[static_cast<std::size_t>(sampling_.first + from) + n % each];
+    };
     trace(
         pixels.size() * each,
         [&](std::size_t n) {
           const EdgePixel& pixel = *pixels[n / each];
-          const std::size_t number = static_cast<std::size_t>(from) + n % each;
-          const SampleOffset offset = sample_offsets()[static_cast<std::size_t>(sampling_.first) + number];
+          const SampleOffset& offset = offset_of(n);
           const FilmPosition centre = film(pixel.column(), pixel.row());
           return FilmPosition{centre.x + offset.x, centre.y + offset.y};
         },
@@ -272,7 +275,7 @@ class TileTaker {
         [&](std::size_t n, std::size_t i) {
           for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
           const bool on_thin = take_off_thin({batch_.x[i], batch_.y[i]}, points_);
-          const SeenLight seen = see(points_, kSampleScale, batch_.captured[i] != 0.0);
+          const SeenLight seen = see(points_, kSampleScale, batch_.captured[i] != 0.0, offset_of(n));
           pixels[n / each]->add(points_, seen.colour, seen.shadow, !on_thin);
         });
   }

@@ -6,26 +6,25 @@
 #include <cmath>
 
 namespace lensplane {
+namespace {
+
+/// Texels: no texture needs more than this, and squares of it are finite.
+constexpr double kLargest = 1e15;
+
+}  // namespace
 
 bool is_finite(const Footprint& footprint) {
   return std::isfinite(footprint.ds_dx) && std::isfinite(footprint.ds_dy) && std::isfinite(footprint.dt_dx) &&
-         std::isfinite(footprint.dt_dy);
+         std::isfinite(footprint.dt_dy) && std::isfinite(footprint.x) && std::isfinite(footprint.y);
 }
 
 Covariance covariance_in_texels(const Footprint& footprint, int width, int height) {
-  // No texture needs more than this, and squares of it are finite.
-  static constexpr double kLargest = 1e15;
   const auto texels = [](double per_pixel, int size) {
     return std::clamp(per_pixel * size * kPixelSigma, -kLargest, kLargest);
   };
   const double xx = texels(footprint.ds_dx, width), xy = texels(footprint.ds_dy, width);
   const double yx = texels(-footprint.dt_dx, height), yy = texels(-footprint.dt_dy, height);
   return {xx * xx + xy * xy, xx * yx + xy * yy, yx * yx + yy * yy};
-}
-
-Covariance covariance_from(const Axes& axes) {
-  const double more = axes.major - axes.minor;
-  return {axes.minor + more * axes.x * axes.x, more * axes.x * axes.y, axes.minor + more * axes.y * axes.y};
 }
 
 AxisVariances variances_of(const Covariance& covariance) {
@@ -51,6 +50,34 @@ Axes axes_of(const Covariance& covariance) {
   axes.x = x / length;
   axes.y = y / length;
   return axes;
+}
+
+TexelFilter texel_filter(const Footprint& footprint, int width, int height) {
+  const Covariance whole = covariance_in_texels(footprint, width, height);
+  const auto [major, minor] = variances_of(whole);
+  const auto left_of = [](double variance) { return std::max(0.0, variance - kOwnVariance); };
+  // Functions of a matrix: f(minor) and what f grows by to f(major), along the longer axis.
+  const double apart = major - minor;
+  const Covariance longer =
+      apart > 0 ? Covariance{(whole.xx - minor) / apart, whole.xy / apart, (whole.yy - minor) / apart}
+                : Covariance{};
+  const double least = left_of(minor), more = left_of(major) - least;
+  const double scale = std::clamp(footprint.scale, 0.0, 1e3), size = scale * scale;
+  TexelFilter filter;
+  filter.axes = {size * (least + more), size * least};
+  filter.covariance = {size * (least + more * std::max(0.0, longer.xx)), size * more * longer.xy,
+                       size * (least + more * std::max(0.0, longer.yy))};
+  if (footprint.x == 0 && footprint.y == 0) return filter;
+  const auto drawn = [&](double variance) {
+    return variance > 0 ? std::sqrt(left_of(variance) / variance) - 1 : -1.0;
+  };
+  const double across = drawn(minor), along = drawn(major) - across;
+  const auto limited = [](double texels) { return std::clamp(texels, -kLargest, kLargest); };
+  const double right = limited(width * (footprint.ds_dx * footprint.x + footprint.ds_dy * footprint.y));
+  const double down = limited(-height * (footprint.dt_dx * footprint.x + footprint.dt_dy * footprint.y));
+  filter.dx = across * right + along * (longer.xx * right + longer.xy * down);
+  filter.dy = across * down + along * (longer.xy * right + longer.yy * down);
+  return filter;
 }
 
 Covariance widened(const Covariance& covariance, double least) {

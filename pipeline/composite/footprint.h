@@ -4,6 +4,11 @@
 //
 // A pixel is filtered by a Gaussian of the film; the Jacobian maps it to an ellipse in the texture, which is
 // held as the covariance of that Gaussian. Variances of filters one after the other add up.
+//
+// A picture has been filtered by its own pixels already, as the film is: by a Gaussian of kPixelSigma texels.
+// So much is taken off the ellipse along both of its axes, as far as there is so much. A picture that is
+// shown as large as it is comes back as it is; of one that is much finer than the film, next to nothing is
+// taken off.
 
 #pragma once
 
@@ -23,8 +28,7 @@ struct Footprint {
   double dt_dy = 0;
   double scale = 1;  // the filter's width in units of kPixelSigma: less than 1 for rays within a pixel, 0 for
                      // a point
-  double spared = 0;  // variance in texels that is taken off both axes: by so much the picture has been
-                      // filtered already
+  double x = 0, y = 0;  // of a ray within a pixel: from the pixel's centre to the ray, in pixels of the film
 };
 
 bool is_finite(const Footprint& footprint);
@@ -55,8 +59,21 @@ struct Axes : AxisVariances {
 
 Axes axes_of(const Covariance& covariance);
 
-/// The ellipse with these axes.
-Covariance covariance_from(const Axes& axes);
+/// What a lookup filters by, in texels.
+struct TexelFilter {
+  Covariance covariance;
+  AxisVariances axes;     // of the covariance
+  double dx = 0, dy = 0;  // from the place that the ray sees to the middle of the filter
+};
+
+/// The pixel filter less the picture's own, `scale` taken into account. What rays within a pixel see lies as
+/// far apart as that filter is wide: their places are drawn together towards what the pixel's centre sees, so
+/// that the sum of rays is the filter of the single ray.
+TexelFilter texel_filter(const Footprint& footprint, int width, int height);
+
+/// The variance of a picture's own filter, in texels. A little more is taken off than it has, so that the
+/// rounding of a map does not blur.
+inline constexpr double kOwnVariance = 1.02 * kPixelSigma * kPixelSigma;
 
 /// The same with both variances at least `least` > 0, whatever they were: what is left of an ellipse when
 /// another's variance has been taken off may be less than nothing along an axis.

@@ -91,7 +91,7 @@ void Viewer::sort_by_depth(std::span<const SeenPoint> points) {
   }
 }
 
-Rgba Viewer::see(std::span<const SeenPoint> points, double scale) {
+Rgba Viewer::see(std::span<const SeenPoint> points, double scale, SampleOffset offset) {
   Rgba colour{0, 0, 0, 0};
   if (order_.size() > 1) sort_by_depth(points);
   veil_ = 0;
@@ -101,6 +101,8 @@ Rgba Viewer::see(std::span<const SeenPoint> points, double scale) {
     if (nearest && veil_ == 0) veil_ = *nearest;
     Footprint footprint = points[*k].footprint;
     footprint.scale = scale;
+    footprint.x = offset.x;
+    footprint.y = offset.y;
     lay_under(colour, shade(surfaces_[*k], looks_[*k], points[*k].st, footprint));
     if (!nearest) nearest = colour[3];
   }

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/composite/sample_pattern.h"
 #include "pipeline/composite/texture.h"
 #include "src/sight.h"
 
@@ -62,8 +63,8 @@ class Viewer {
   Viewer(const std::vector<Surface>& surfaces, const std::vector<SurfaceLook>& looks);
 
   /// What a ray sees that meets `points`, in the order of the surfaces. Its filter is `scale` times as wide
-  /// as the pixel filter.
-  Rgba see(std::span<const SeenPoint> points, double scale);
+  /// as the pixel filter; `offset`: where it lies within its pixel.
+  Rgba see(std::span<const SeenPoint> points, double scale, SampleOffset offset = {0, 0});
 
   /// Whether what was seen last lies at least by this share, and at most by all but this share, behind a
   /// nearer surface: alphas between the two.

@@ -64,7 +64,7 @@ class PartedPixel {
   Rgba seen_by(Viewer& viewer, std::span<const PixelPart> parts) {
     std::array<double, 4> sum{};
     for (const PixelPart& part : parts) {
-      const Rgba colour = viewer.see(from(part), part.scale);
+      const Rgba colour = viewer.see(from(part), part.scale, {part.x, part.y});
       for (std::size_t c = 0; c < 4; ++c) sum[c] += part.weight * static_cast<double>(colour[c]);
     }
     Rgba mean{};

@@ -53,7 +53,9 @@ PolarPart polar_part(TextureCoordinates st, const Footprint& footprint, double x
            .ds_dy = ds(du_dy, dv_dy),
            .dt_dx = dt(du_dx, dv_dx),
            .dt_dy = dt(du_dy, dv_dy),
-           .scale = footprint.scale * kPolarPartSigma}};
+           .scale = footprint.scale * kPolarPartSigma,
+           .x = footprint.x + sigma * x,
+           .y = footprint.y + sigma * y}};
 }
 
 }  // namespace lensplane

@@ -3,6 +3,7 @@
 #include "pipeline/composite/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lensplane {
@@ -24,22 +25,28 @@ auto with_reader(const std::variant<Pyramid, TiledTexture>& source, Wrap wrap, a
   return use(texels);
 }
 
-Rgba bilinear(Texels& texels, TextureCoordinates st) {
+/// What the four texels around a place weigh that lies `share` of the way from the second to the third.
+std::array<float, 4> cubic_weights(float share) {
+  const float t = share, u = 1 - share;
+  return {-t * u * u / 2, (2 - t * t * (5 - 3 * t)) / 2, (2 - u * u * (5 - 3 * u)) / 2, -u * t * t / 2};
+}
+
+Rgba on_surface(Texels& texels, TextureCoordinates st) {
   const PixelWindows& window = texels.levels().front().window;
   const double x = st.s * window.display_width - 0.5;
   const double y = (1.0 - st.t) * window.display_height - 0.5;
   const int column = clamped_floor(x);
   const int row = clamped_floor(y);
-  const auto right = static_cast<float>(std::clamp(x - column, 0.0, 1.0));
-  const auto down = static_cast<float>(std::clamp(y - row, 0.0, 1.0));
-  const auto texel = [&](int i, int j) { return *texels.row(0, i, j, 1); };
-  const Rgba a = texel(column, row), b = texel(column + 1, row);
-  const Rgba c = texel(column, row + 1), d = texel(column + 1, row + 1);
-  Rgba colour;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const float upper = a[k] + (b[k] - a[k]) * right;
-    const float lower = c[k] + (d[k] - c[k]) * right;
-    colour[k] = upper + (lower - upper) * down;
+  const auto across = cubic_weights(static_cast<float>(std::clamp(x - column, 0.0, 1.0)));
+  const auto down = cubic_weights(static_cast<float>(std::clamp(y - row, 0.0, 1.0)));
+  Rgba colour{0, 0, 0, 0};
+  for (int j = 0; j < 4; ++j) {
+    const Rgba* texel = texels.row(0, column - 1, row - 1 + j, 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        colour[k] += down[static_cast<std::size_t>(j)] * across[i] * texel[i][k];
+      }
+    }
   }
   return colour;
 }
@@ -47,11 +54,15 @@ Rgba bilinear(Texels& texels, TextureCoordinates st) {
 }  // namespace
 
 Rgba Texture::lookup(TextureCoordinates st) const {
-  return with_reader(source_, wrap_, [&](auto& texels) { return bilinear(texels, st); });
+  return with_reader(source_, wrap_, [&](auto& texels) { return on_surface(texels, st); });
 }
 
 Rgba Texture::filtered(TextureCoordinates st, const Footprint& footprint) const {
-  if (footprint.scale == 0 && std::isfinite(st.s) && std::isfinite(st.t)) return lookup(st);
+  if (footprint.scale == 0 && std::isfinite(st.s) && std::isfinite(st.t) && is_finite(footprint)) {
+    const int width = windows().display_width, height = windows().display_height;
+    const TexelFilter filter = texel_filter(footprint, width, height);
+    return lookup({st.s + filter.dx / width, st.t - filter.dy / height});
+  }
   return with_reader(source_, wrap_, [&](auto& texels) { return filtered_texels(texels, st, footprint); });
 }
 

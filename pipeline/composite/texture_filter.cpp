@@ -7,31 +7,13 @@
 
 #include "pipeline/composite/close_filter.h"
 #include "pipeline/composite/elliptical_filter.h"
+#include "pipeline/composite/long_filter.h"
 #include "pipeline/composite/polar_footprints.h"
+#include "pipeline/composite/surface_kernel.h"
 #include "pipeline/composite/weighted_sum.h"
 
 namespace lensplane {
 namespace {
-
-// The variance of the triangle, that is, of bilinear interpolation.
-constexpr double kTriangleVariance = 1.0 / 6;
-
-// Texels are this many pixels large where the surface starts to be cubic, and where it is.
-constexpr double kCubicStarts = 4;
-constexpr double kCubicOnly = 8;
-
-double smooth_step(double from, double to, double x) {
-  const double share = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return share * share * (3 - 2 * share);
-}
-
-/// How cubic the surface is along an axis along which the unscaled pixel filter has this variance in texels.
-double smoothness(double variance) {
-  constexpr double kNowhere = kPixelSigma / kCubicStarts;
-  if (variance >= kNowhere * kNowhere) return 0;
-  const double texels_per_pixel = std::sqrt(variance) / kPixelSigma;
-  return 1 - smooth_step(1 / kCubicOnly, 1 / kCubicStarts, texels_per_pixel);
-}
 
 /// A Gaussian as wide as this many pictures along an axis sees their mean.
 double widest(Wrap wrap) {
@@ -42,20 +24,21 @@ Covariance scaled(const Covariance& c, double x, double y) {
   return {c.xx * x * x, c.xy * x * y, c.yy * y * y};
 }
 
-Covariance limited(const Covariance& c, const PixelWindows& window, Wrap wrap) {
+/// An ellipse that is no longer than a few pictures.
+struct Ellipse {
+  Covariance covariance;
+  AxisVariances axes;
+};
+Ellipse limited(const TexelFilter& filter, const PixelWindows& window, Wrap wrap) {
+  const Covariance& c = filter.covariance;
   const auto limit = [&](double variance, int size) {
     const double most = widest(wrap) * size;
     return variance > most * most ? most / std::sqrt(variance) : 1.0;
   };
-  return scaled(c, limit(c.xx, window.display_width), limit(c.yy, window.display_height));
-}
-
-/// Both axes with `spared` less variance.
-Covariance narrowed(const Covariance& c, double spared) {
-  Axes axes = axes_of(c);
-  axes.major = std::max(0.0, axes.major - spared);
-  axes.minor = std::max(0.0, axes.minor - spared);
-  return covariance_from(axes);
+  const double x = limit(c.xx, window.display_width), y = limit(c.yy, window.display_height);
+  if (x == 1 && y == 1) return {c, filter.axes};
+  const Covariance less = scaled(c, x, y);
+  return {less, variances_of(less)};
 }
 
 /// What is left for the elliptical filter to do on a level; `total` is to be done on the finest.
@@ -91,11 +74,13 @@ bool is_beyond(const PixelWindows& window, const TexelPosition& at, const Covari
          at.y > window.y + window.height + y;
 }
 
-Rgba elliptical(Texels& texels, TextureCoordinates st, const Covariance& pixel, double most_texels) {
+Rgba elliptical(Texels& texels, TextureCoordinates st, const Ellipse& ellipse, double most_texels) {
   const auto& levels = texels.levels();
-  const Covariance total{pixel.xx + kTriangleVariance, pixel.xy, pixel.yy + kTriangleVariance};
+  const Covariance& pixel = ellipse.covariance;
+  const double surface = surface_variance(ellipse.axes.minor);
+  const Covariance total{pixel.xx + surface, pixel.xy, pixel.yy + surface};
   // The coarsest level on which the shorter axis is still at least a texel long.
-  const int longest = std::ilogb(std::max(1.0, variances_of(total).minor)) / 2;
+  const int longest = std::ilogb(std::max(1.0, ellipse.axes.minor + surface)) / 2;
   auto level = std::min(static_cast<std::size_t>(longest), levels.size() - 1);
   Covariance left = left_on_level(levels, level, total);
   while (texels_in(left) > most_texels && level + 1 < levels.size()) {
@@ -109,21 +94,21 @@ Rgba elliptical(Texels& texels, TextureCoordinates st, const Covariance& pixel, 
 /// lookup may cost.
 Rgba seen(Texels& texels, TextureCoordinates st, const Footprint& footprint, double part) {
   const PixelWindows& window = texels.levels().front().window;
-  const Covariance whole = covariance_in_texels(footprint, window.display_width, window.display_height);
-  const double scale = std::clamp(footprint.scale, 0.0, 1e3);
-  Covariance pixel = limited(scaled(whole, scale, scale), window, texels.wrap());
-  if (footprint.spared > 0) pixel = narrowed(pixel, footprint.spared);
+  const TexelFilter filter = texel_filter(footprint, window.display_width, window.display_height);
+  const Ellipse ellipse = limited(filter, window, texels.wrap());
+  const auto& [pixel, axes] = ellipse;
+  st.s += filter.dx / window.display_width;
+  st.t -= filter.dy / window.display_height;
   const TexelPosition at = position_on(window, st);
   if (texels.wrap() == Wrap::Black && is_beyond(window, at, pixel)) return {0, 0, 0, 0};
-  const double share = std::clamp(2.0 * part, 0.1, 1.0), longest = kLongestCloseSigma * share;
-  const AxisVariances axes = variances_of(pixel);
+  const double share = std::clamp(2.0 * part, 0.1, 1.0), longest = kLongestSigma * share;
   // Parts of a pixel add up to its filter: for them an ellipse does as soon as it is large enough for texels.
   const double widest =
-      part < 1 ? kSmallestVariance - kTriangleVariance : kLargestCloseSigma * kLargestCloseSigma;
+      part < 1 ? kSmallestVariance - surface_variance(kSmallestVariance) : kLargestCloseVariance;
   if (axes.minor > widest || axes.major > longest * longest) {
-    return elliptical(texels, st, pixel, kMostTexels * share * share);
+    return elliptical(texels, st, ellipse, kMostTexels * share * share);
   }
-  return close_mean(texels, at.x, at.y, pixel, {smoothness(whole.xx), smoothness(whole.yy)});
+  return close_mean(texels, at.x, at.y, pixel);
 }
 
 }  // namespace

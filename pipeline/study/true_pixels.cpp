@@ -11,9 +11,8 @@ namespace lensplane {
 namespace {
 
 constexpr int kTile = 16;
-constexpr double kPoint =
-    1e-3;                  // a ray's filter in pixel filters: a point, but of the surface that the pixel sees
-constexpr int kReach = 2;  // pixels beyond a pixel's centre: 4.4 standard deviations of the filter
+constexpr float kLeast = 1e-4F;  // weights below this share of the largest do not count
+constexpr int kReach = 2;        // pixels beyond a pixel's centre: 4.4 standard deviations of the filter
 
 /// The weights of rays along a line, from kReach pixels before a pixel's centre to as many behind it.
 std::vector<float> weights_along(int rays) {
@@ -28,17 +27,18 @@ std::vector<float> weights_along(int rays) {
   return weights;
 }
 
-/// What `count` rays side by side see, from the film position (left, y), `step` pixels from one to the next.
+/// `count` rays side by side, from the film position (left, y), `step` pixels from one to the next: what they
+/// meet, and what they show.
 class LineOfSight {
  public:
   LineOfSight(const Tracer& tracer, const std::vector<SurfaceLook>& looks)
       : tracer_(tracer),
         viewer_(tracer.surfaces(), looks),
         batch_(tracer.make_batch()),
-        points_(looks.size()) {}
+        each_(looks.size()) {}
 
-  void look(double left, double y, double step, int count, std::vector<Rgba>& seen) {
-    seen.clear();
+  void trace(double left, double y, double step, int count) {
+    points_.clear();
     for (int first = 0; first < count; first += kBatchSize) {
       const int rays = std::min(kBatchSize, count - first);
       for (int i = 0; i < kBatchSize; ++i) {
@@ -46,49 +46,58 @@ class LineOfSight {
         batch_.y[i] = y;
       }
       tracer_.trace(batch_);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(rays); ++i) seen.push_back(seen_by(i));
+      for (std::size_t i = 0; i < static_cast<std::size_t>(rays); ++i) {
+        for (std::size_t k = 0; k < each_; ++k) points_.push_back(seen_point(batch_.surfaces[k], i));
+      }
     }
   }
 
- private:
-  Rgba seen_by(std::size_t i) {
-    for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
-    return viewer_.see(points_, kPoint);
+  /// The colour in a point that ray `i` shows a pixel whose centre it lies `offset` away from.
+  Rgba seen(int i, SampleOffset offset) {
+    const auto ray = static_cast<std::size_t>(i);
+    return viewer_.see(std::span(points_).subspan(ray * each_, each_), 0, offset);
   }
 
+ private:
   const Tracer& tracer_;
   Viewer viewer_;
   TraceBatch batch_;
-  std::vector<SeenPoint> points_;
+  std::size_t each_;               // surfaces
+  std::vector<SeenPoint> points_;  // of every ray of the line
 };
 
 void add(float weight, const Rgba& colour, Rgba& sum) {
   for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * colour[c];
 }
 
-/// Filters line by line, first along it and then across.
+/// Line by line: every ray for every pixel whose filter it lies in.
 void fill(const std::vector<float>& weights, int rays, LineOfSight& sight, TrueTile& tile) {
   const int size = tile.size, wide = (size + 2 * kReach) * rays;
   const double step = 1.0 / rays;
-  tile.pixels.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), Rgba{0, 0, 0, 0});
-  std::vector<Rgba> seen, row(static_cast<std::size_t>(size));
+  std::vector<float> total(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 0.0F);
+  tile.pixels.assign(total.size(), Rgba{0, 0, 0, 0});
+  const float least = kLeast * weights[weights.size() / 2] * weights[weights.size() / 2];
   // A pixel's window begins half a pixel right of, and below, the one of whole pixels around it.
   const int first_of_pixel = rays / 2, window = static_cast<int>(weights.size());
+  const auto off = [&](int i) { return (i + 0.5) * step - kReach; };
   for (int line = 0; line < wide; ++line) {
-    sight.look(tile.left - kReach + 0.5 * step, tile.top - kReach + (line + 0.5) * step, step, wide, seen);
-    for (int column = 0; column < size; ++column) {
-      Rgba& sum = row[static_cast<std::size_t>(column)] = {0, 0, 0, 0};
-      for (int i = 0; i < window; ++i)
-        add(weights[static_cast<std::size_t>(i)],
-            seen[static_cast<std::size_t>(column * rays + first_of_pixel + i)], sum);
-    }
+    sight.trace(tile.left - kReach + 0.5 * step, tile.top - kReach + (line + 0.5) * step, step, wide);
     for (int y = 0; y < size; ++y) {
-      const int i = line - (y * rays + first_of_pixel);
-      if (i < 0 || i >= window) continue;
-      for (int x = 0; x < size; ++x)
-        add(weights[static_cast<std::size_t>(i)], row[static_cast<std::size_t>(x)],
-            tile.pixels[static_cast<std::size_t>(y * size + x)]);
+      const int j = line - (y * rays + first_of_pixel);
+      if (j < 0 || j >= window) continue;
+      for (int x = 0; x < size; ++x) {
+        const auto at = static_cast<std::size_t>(y * size + x);
+        for (int i = 0; i < window; ++i) {
+          const float weight = weights[static_cast<std::size_t>(i)] * weights[static_cast<std::size_t>(j)];
+          if (weight < least) continue;
+          add(weight, sight.seen(x * rays + first_of_pixel + i, {off(i), off(j)}), tile.pixels[at]);
+          total[at] += weight;
+        }
+      }
     }
+  }
+  for (std::size_t at = 0; at < total.size(); ++at) {
+    for (float& channel : tile.pixels[at]) channel /= total[at];
   }
 }
 

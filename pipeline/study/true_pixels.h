@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The truth that pictures are measured against: squares of pixels, spread over the frame, seen by very many
-// rays each, every one a point, weighted by the pixel filter.
+// rays each, every one a point, weighted by the pixel filter less the pictures' own (composite/footprint.h).
 
 #pragma once
 
@@ -22,8 +22,8 @@ struct TrueTile {
 
 /// `across` x `across` squares of 16 pixels each way, fewer where they would overlap, evenly spread over the
 /// frame without its overscan; every pixel by `rays` x `rays` rays within it, and those of its neighbours
-/// that the filter reaches. The tracer's plan has to call for the Jacobian, which says how smooth a texture
-/// is between its texels. `looks` in the order of the surfaces. Runs in parallel.
+/// that the filter reaches. The tracer's plan has to call for the Jacobian, from which a picture's own
+/// filter is known. `looks` in the order of the surfaces. Runs in parallel.
 std::vector<TrueTile> true_tiles(const Tracer& tracer, const std::vector<SurfaceLook>& looks, int across,
                                  int rays);
 

@@ -55,7 +55,7 @@ void filtered(benchmark::State& state, double major, double minor, double angle)
   state.SetItemsProcessed(lookups);
 }
 
-void bilinear(benchmark::State& state) {
+void point(benchmark::State& state) {
   std::int64_t lookups = 0;
   texture();
   for (auto _ : state) {
@@ -92,7 +92,7 @@ void pyramid(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(make_pyramid(picture, Wrap::Globe).levels.size());
 }
 
-BENCHMARK(bilinear);
+BENCHMARK(point);
 BENCHMARK_CAPTURE(filtered, identity, 1, 1, 0);
 BENCHMARK_CAPTURE(filtered, sheared_near_identity, 1.2, 0.9, 0.4);
 BENCHMARK_CAPTURE(filtered, minified_2, 2, 2, 0);

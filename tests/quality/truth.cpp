@@ -70,16 +70,16 @@ void add(double weight, const Rgba& colour, Sum& sum) {
 class StripTaker {
  public:
   StripTaker(const Tracer& tracer, const std::vector<SurfaceLook>& looks, int rays)
-      : plain_(tracer.without_passes()),
-        viewer_(plain_.surfaces(), looks),
-        batch_(plain_.make_batch()),
+      : tracer_(tracer),
+        viewer_(tracer.surfaces(), looks),
+        batch_(tracer.make_batch()),
         points_(looks.size()),
         rays_(rays),
         places_(places_in_pixel(rays)) {}
 
   /// The rays of the rows from `top` to `bottom`, which may lie beyond the frame.
   Strip take(int top, int bottom) {
-    const int width = plain_.camera().width;
+    const int width = tracer_.camera().width;
     Strip strip{top - kReach, bottom - top + 2 * kReach, {}, {}};
     strip.filtered.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(strip.rows), Sum{});
     strip.boxed = strip.filtered;
@@ -121,38 +121,39 @@ class StripTaker {
       batch_.x[i] = batch_.x[0];
       batch_.y[i] = batch_.y[0];
     }
-    plain_.trace(batch_);
-    for (std::size_t i = 0; i < waiting_.size(); ++i) splat(waiting_[i], seen(i), strip);
+    tracer_.trace(batch_);
+    for (std::size_t i = 0; i < waiting_.size(); ++i) {
+      for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], i);
+      splat(waiting_[i], strip);
+    }
     waiting_.clear();
   }
 
-  Rgba seen(std::size_t i) {
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      const SurfaceBatch& surface = batch_.surfaces[k];
-      points_[k] = {
-          surface.outcome[i] == Outcome::Hit, surface.distance[i], {surface.s[i], surface.t[i]}, {}};
-    }
-    return viewer_.see(points_, 0);  // points
-  }
+  /// What the ray shows a pixel whose centre it lies (x, y) away from: a point.
+  Rgba seen(double x, double y) { return viewer_.see(points_, 0, {x, y}); }
 
-  void splat(const Ray& ray, const Rgba& colour, Strip& strip) const {
-    const int width = plain_.camera().width;
+  void splat(const Ray& ray, Strip& strip) {
+    constexpr double kLeastWeight = 1e-3;  // of the filter's in its middle
+    const int width = tracer_.camera().width;
     const Place &x = places_[static_cast<std::size_t>(ray.x)], &y = places_[static_cast<std::size_t>(ray.y)];
+    const double all = static_cast<double>(rays_) * kPlaces;
+    const double right = (ray.x + 0.5) / all - 0.5, down = (ray.y + 0.5) / all - 0.5;
     const auto at = [&](int column, int row) {
       return static_cast<std::size_t>((row - strip.top) * width + column);
     };
     for (int j = 0; j < kTouched; ++j) {
       for (int i = 0; i < kTouched; ++i) {
         const int column = ray.column + x.first + i;
-        if (column < 0 || column >= width) continue;
-        add(x.weights[static_cast<std::size_t>(i)] * y.weights[static_cast<std::size_t>(j)], colour,
+        const double weight = x.weights[static_cast<std::size_t>(i)] * y.weights[static_cast<std::size_t>(j)];
+        if (column < 0 || column >= width || weight < kLeastWeight) continue;
+        add(weight, seen(right - (x.first + i), down - (y.first + j)),
             strip.filtered[at(column, ray.row + y.first + j)]);
       }
     }
-    if (ray.column >= 0 && ray.column < width) add(1, colour, strip.boxed[at(ray.column, ray.row)]);
+    if (ray.column >= 0 && ray.column < width) add(1, seen(0, 0), strip.boxed[at(ray.column, ray.row)]);
   }
 
-  Tracer plain_;
+  const Tracer& tracer_;
   Viewer viewer_;
   TraceBatch batch_;
   std::vector<SeenPoint> points_;  // of one ray

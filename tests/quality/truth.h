@@ -20,12 +20,13 @@ namespace lensplane {
 inline constexpr int kTruthRays = 32;
 
 struct Truth {
-  Picture by_pixel_filter;  // the Gaussian of kPixelSigma that lensplane documents as its own
+  Picture by_pixel_filter;  // the Gaussian of kPixelSigma, less the pictures' own, as docs/numerics.md says
   Picture by_box;           // one pixel wide
 };
 
-/// The frame that the tracer's camera takes, without overscan; `looks` in the order of its surfaces. Runs in
-/// parallel; depends on nothing else.
+/// The tracer's plan has to call for the Jacobian, from which a picture's own filter is known. The frame that
+/// the tracer's camera takes, without overscan; `looks` in the order of its surfaces. Runs in parallel;
+/// depends on nothing else.
 Truth true_picture(const Tracer& tracer, const std::vector<SurfaceLook>& looks, int rays = kTruthRays);
 
 }  // namespace lensplane

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What pictures are measured by: very many rays a pixel, each of which looks surfaces up in a point, weighed
-// by the pixel filter.
+// by the pixel filter less the pictures' own.
 
 #pragma once
 
@@ -22,7 +22,7 @@ class BruteForce {
       : tracer_(tracer),
         viewer_(tracer.surfaces(), looks),
         batch_(tracer.make_batch()),
-        points_(looks.size()),
+        surfaces_(looks.size()),
         density_(density),
         reach_(static_cast<int>(4 * kPixelSigma * density)) {}
 
@@ -31,11 +31,14 @@ class BruteForce {
     const int width = tracer_.camera().width, height = tracer_.camera().height;
     std::vector<Sum> sums(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (int line = first_line(0); line < first_line(height - 1) + 2 * reach_; ++line) {
-      const std::vector<Sum> pixels = weighed_along(line_of_rays(line, width), width);
+      trace_line(line, width);
       for (int row = 0; row < height; ++row) {
-        const double weight = weight_of(line, row);
-        Sum* const first = &sums[static_cast<std::size_t>(row) * pixels.size()];
-        for (std::size_t i = 0; weight > 0 && i < pixels.size(); ++i) add(pixels[i], weight, first[i]);
+        if (weight_of(line, row) == 0) continue;
+        for (int column = 0; column < width; ++column) {
+          add_rays(line, row, column,
+                   sums[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                        static_cast<std::size_t>(column)]);
+        }
       }
     }
     Picture picture{width, height, 0, 0, width, height, {}};
@@ -52,10 +55,6 @@ class BruteForce {
   /// Colour times weight, and the weight.
   using Sum = std::array<double, 5>;
 
-  static void add(const Sum& what, double weight, Sum& sum) {
-    for (std::size_t c = 0; c < 5; ++c) sum[c] += weight * what[c];
-  }
-
   /// Where line or column number n of rays is on the film, in pixels.
   double place(int n) const { return 0.5 + (n + 0.5) / density_; }
 
@@ -69,10 +68,10 @@ class BruteForce {
     return n >= 0 && n < 2 * reach_ ? std::exp(-off * off / (2 * kPixelSigma * kPixelSigma)) : 0;
   }
 
-  /// What the rays of a line see, from the first column's first to the last one's last.
-  std::vector<Rgba> line_of_rays(int line, int width) {
+  /// What the rays of a line meet, from the first column's first to the last one's last.
+  void trace_line(int line, int width) {
     const int first = first_line(0), end = first_line(width - 1) + 2 * reach_;
-    std::vector<Rgba> colours;
+    points_.clear();
     for (int start = first; start < end; start += kBatchSize) {
       for (int i = 0; i < kBatchSize; ++i) {
         batch_.x[i] = place(start + i);
@@ -80,31 +79,30 @@ class BruteForce {
       }
       tracer_.trace(batch_);
       for (int i = 0; i < std::min(kBatchSize, end - start); ++i) {
-        const auto ray = static_cast<std::size_t>(i);
-        for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = seen_point(batch_.surfaces[k], ray);
-        colours.push_back(viewer_.see(points_, 0));
+        for (std::size_t k = 0; k < surfaces_; ++k) {
+          points_.push_back(seen_point(batch_.surfaces[k], static_cast<std::size_t>(i)));
+        }
       }
     }
-    return colours;
   }
 
-  /// The line's share in the pixels of a row that it runs through the middle of.
-  std::vector<Sum> weighed_along(const std::vector<Rgba>& colours, int width) const {
-    std::vector<Sum> pixels(static_cast<std::size_t>(width));
-    for (int column = 0; column < width; ++column) {
-      for (int n = first_line(column); n < first_line(column) + 2 * reach_; ++n) {
-        const Rgba& colour = colours[static_cast<std::size_t>(n - first_line(0))];
-        add({colour[0], colour[1], colour[2], colour[3], 1}, weight_of(n, column),
-            pixels[static_cast<std::size_t>(column)]);
-      }
+  /// A line's rays for a pixel, each as the pixel sees it: less the pictures' own filter.
+  void add_rays(int line, int row, int column, Sum& sum) {
+    for (int n = first_line(column); n < first_line(column) + 2 * reach_; ++n) {
+      const double weight = weight_of(line, row) * weight_of(n, column);
+      const auto ray = static_cast<std::size_t>(n - first_line(0));
+      const Rgba colour = viewer_.see(std::span(points_).subspan(ray * surfaces_, surfaces_), 0,
+                                      {place(n) - (column + 0.5), place(line) - (row + 0.5)});
+      for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * static_cast<double>(colour[c]);
+      sum[4] += weight;
     }
-    return pixels;
   }
 
   const Tracer& tracer_;
   Viewer viewer_;
   TraceBatch batch_;
-  std::vector<SeenPoint> points_;
+  std::size_t surfaces_;
+  std::vector<SeenPoint> points_;  // of the rays of a line, surface by surface
   int density_, reach_;
 };
 

@@ -216,7 +216,7 @@ TEST(CompositorLight, BeyondItsEdgesAPlateGoesOnAsItIsTold) {
   for (const Wrap wrap : {Wrap::Black, Wrap::Clamp, Wrap::Mirror, Wrap::Repeat}) {
     const std::vector<SurfaceLook> looks = {{texture(detailed_plate(), wrap)}};
     pictures.push_back(composite(tracer, looks, {}).picture);
-    const Difference off = difference(pictures.back(), brute_force(tracer, looks, 24));
+    const Difference off = difference(pictures.back(), brute_force(tracer, looks, 12));
     EXPECT_LT(off.rms, kPictureError) << static_cast<int>(wrap);
     EXPECT_LT(off.most, kWorstPixel) << static_cast<int>(wrap);
   }
@@ -237,7 +237,7 @@ TEST(CompositorLight, MoreRaysComeNearerToTheTruth) {
                                                            }),
                                                    Wrap::Globe)},
                                           {texture(detailed_plate(), Wrap::Mirror)}};
-  const Picture truth = brute_force(tracer, looks, 24);
+  const Picture truth = brute_force(tracer, looks, 12);
   double before = 1;
   for (const int rays : {1, 4, 16, 64}) {
     const Composite result = composite(tracer, looks, {.max = rays, .threshold = kAllRays});

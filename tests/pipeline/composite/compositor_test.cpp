@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <random>
+
 #include "pipeline/composite/locator.h"
 #include "pipeline/composite/star_layer.h"
 #include "src/lens_map.h"
@@ -63,6 +65,50 @@ TEST(Compositor, AtInfinityPlatesLieOverSkiesAndLaterOverEarlier) {
   expect_colour(take_picture(scene, {red, green}).picture.at(1, 1), kGreen);
   scene.surfaces = {Plate{}, Plate{}};
   expect_colour(take_picture(scene, {red, green}).picture.at(1, 1), kGreen);
+}
+
+TEST(Compositor, APlateThatNothingBendsComesBackToItsBorder) {
+  std::mt19937 random(9);
+  Scene scene = empty_scene(48, 27, 30);
+  scene.surfaces = {Plate{}};
+  Picture plate{48, 27, 0, 0, 48, 27, {}};
+  for (int i = 0; i < 48 * 27; ++i) {
+    const float value = static_cast<float>(random() % 1024) / 1023;
+    plate.pixels.push_back({value, 1 - value, i % 3 == 0 ? 1.0F : 0.0F, 1});
+  }
+  for (const Wrap wrap : {Wrap::Black, Wrap::Clamp, Wrap::Mirror, Wrap::Repeat}) {
+    const SurfaceLook look{std::make_shared<const Texture>(plate, wrap), {}};
+    for (const int most : {1, 64}) {
+      const Picture got = composite(tracer_of(scene), {look}, {.max = most}).picture;
+      for (std::size_t i = 0; i < got.pixels.size(); ++i) {
+        for (std::size_t c = 0; c < 4; ++c) ASSERT_NEAR(got.pixels[i][c], plate.pixels[i][c], 1e-5) << i;
+      }
+    }
+  }
+}
+
+TEST(Compositor, APlateThatNothingBendsIsAsSharpBesideASilhouette) {
+  // A ball covers a part of the pixels along its limb: what they show of the plate is the plate.
+  std::mt19937 random(9);
+  Scene scene = empty_scene(48, 27, 30);
+  scene.surfaces = {Plate{}, Sphere{{0, 0, -10}, 1.3, {}}};
+  Picture plate{48, 27, 0, 0, 48, 27, {}};
+  for (int i = 0; i < 48 * 27; ++i) {
+    const float value = static_cast<float>(random() % 1024) / 1023;
+    plate.pixels.push_back({value, value, value, 1});
+  }
+  const SurfaceLook behind{std::make_shared<const Texture>(plate, Wrap::Black), {}},
+      ball{flat({0, 1, 0, 1}), {}};
+  const SurfaceLook white{flat({1, 1, 1, 1}), {}};
+  const Picture got = composite(tracer_of(scene), {behind, ball}, {.threshold = 0}).picture;
+  const Picture clear = composite(tracer_of(scene), {white, ball}, {.threshold = 0}).picture;
+  int limb = 0;
+  for (std::size_t i = 0; i < got.pixels.size(); ++i) {
+    const float left = clear.pixels[i][0];  // of the plate
+    limb += left > 0.01F && left < 0.99F ? 1 : 0;
+    ASSERT_NEAR(got.pixels[i][0], left * plate.pixels[i][0], 2e-5) << i;
+  }
+  EXPECT_GT(limb, 20);
 }
 
 TEST(Compositor, NothingIsTransparentBlack) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What filtering is measured by: the pixel filter's integral over the bilinear surface, by very many points.
+// What filtering is measured by: the pixel filter's integral over the cubic surface, less the picture's own
+// filter, by very many points.
 
 #pragma once
 
@@ -11,8 +12,29 @@
 
 namespace lensplane {
 
-/// The pixel filter summed up over a lattice of film positions that reaches 4.5 standard deviations and is
-/// finer than the texels.
+/// A colour held to the range of the 4 x 4 texels around (s, t).
+inline Rgba held_to_texels(const Texture& texture, TextureCoordinates st, Rgba colour) {
+  const double width = texture.windows().display_width, height = texture.windows().display_height;
+  const double column = std::floor(st.s * width - 0.5), row = std::floor((1 - st.t) * height - 0.5);
+  Rgba least, most;
+  least.fill(1e30F);
+  most.fill(-1e30F);
+  for (int j = -1; j <= 2; ++j) {
+    for (int i = -1; i <= 2; ++i) {
+      const Rgba texel = texture.lookup({(column + i + 0.5) / width, 1 - (row + j + 0.5) / height});
+      for (std::size_t k = 0; k < 4; ++k) {
+        least[k] = std::min(least[k], texel[k]);
+        most[k] = std::max(most[k], texel[k]);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < 4; ++k) colour[k] = std::max(least[k], std::min(most[k], colour[k]));
+  return colour;
+}
+
+/// The pixel filter, less a Gaussian of 0.45 texels as far as it goes along either axis, summed up over a
+/// lattice of film positions that reaches 4.5 standard deviations and is finer than the texels. What is
+/// narrower than the texels is held to their range.
 inline Rgba reference_filtered(const Texture& texture, TextureCoordinates st, const Footprint& footprint) {
   const double width = texture.windows().display_width, height = texture.windows().display_height;
   const double xx = footprint.ds_dx * width, xy = footprint.ds_dy * width;
@@ -21,19 +43,26 @@ inline Rgba reference_filtered(const Texture& texture, TextureCoordinates st, co
   const double turn = std::atan2(2 * (xx * xy + yx * yy), xx * xx + yx * yx - xy * xy - yy * yy) / 2;
   const double c = std::cos(turn), s = std::sin(turn);
   constexpr double kReach = 4.5, kTexelsApart = 0.3;
-  const double sigma = kPixelSigma * footprint.scale;
-  const auto steps = [&](double texels_per_pixel) {
+  const auto left = [&](double texels_per_pixel) {  // of the standard deviation, as a share
+    const double own = kOwnVariance / std::pow(kPixelSigma * texels_per_pixel, 2);
+    return own < 1 ? std::sqrt(1 - own) : 0.0;
+  };
+  const double length_along = std::hypot(xx * c + xy * s, yx * c + yy * s);
+  const double length_across = std::hypot(xy * c - xx * s, yy * c - yx * s);
+  const double sigma_along = kPixelSigma * footprint.scale * left(length_along);
+  const double sigma_across = kPixelSigma * footprint.scale * left(length_across);
+  const auto steps = [&](double sigma, double texels_per_pixel) {
     return std::max(24, static_cast<int>(kReach * sigma * texels_per_pixel / kTexelsApart));
   };
-  const int along = steps(std::hypot(xx * c + xy * s, yx * c + yy * s));
-  const int across = steps(std::hypot(xy * c - xx * s, yy * c - yx * s));
+  const int along = steps(sigma_along, length_along), across = steps(sigma_across, length_across);
   std::array<double, 4> sum{};
   double weights = 0;
   for (int j = -across; j <= across; ++j) {
     for (int i = -along; i <= along; ++i) {
       const double a = kReach * i / along, b = kReach * j / across;
       const double weight = std::exp(-(a * a + b * b) / 2);
-      const double x = sigma * (a * c - b * s), y = sigma * (a * s + b * c);
+      const double x = sigma_along * a * c - sigma_across * b * s;
+      const double y = sigma_along * a * s + sigma_across * b * c;
       const Rgba colour = texture.lookup({st.s + footprint.ds_dx * x + footprint.ds_dy * y,
                                           st.t + footprint.dt_dx * x + footprint.dt_dy * y});
       for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * static_cast<double>(colour[k]);
@@ -42,7 +71,8 @@ inline Rgba reference_filtered(const Texture& texture, TextureCoordinates st, co
   }
   Rgba mean;
   for (std::size_t k = 0; k < 4; ++k) mean[k] = static_cast<float>(sum[k] / weights);
-  return mean;
+  const double narrow = std::min(sigma_along * length_along, sigma_across * length_across);
+  return narrow < 0.63 ? held_to_texels(texture, st, mean) : mean;
 }
 
 /// A footprint of `major` x `minor` texels to the pixel, the longer one turned by `angle` (radians) from the

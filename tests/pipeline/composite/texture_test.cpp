@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include <cmath>
 
 namespace lensplane {
@@ -38,11 +40,38 @@ TEST(Texture, PixelCentresReturnTheirPixels) {
   }
 }
 
-TEST(Texture, BetweenCentresItIsLinear) {
+TEST(Texture, BetweenCentresRampsGoOn) {
   const Texture texture(numbered(8, 4), Wrap::Clamp);
   const Rgba colour = texture.lookup({(2.5 + 0.25) / 8, 1 - (1.5 + 0.5) / 4});
   EXPECT_NEAR(colour[0], 2.25, 1e-5);
   EXPECT_NEAR(colour[1], 1.5, 1e-5);
+}
+
+TEST(Texture, BetweenCentresItIsCatmullAndRomsCubic) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  Picture picture{8, 6, 0, 0, 8, 6, {}};
+  for (int i = 0; i < 48; ++i) picture.pixels.push_back({uniform(random), uniform(random), 0, 1});
+  const auto cubic = [](double x) {
+    const double r = std::abs(x);
+    return r < 1   ? 1 - 2.5 * r * r + 1.5 * r * r * r
+           : r < 2 ? 2 - 4 * r + 2.5 * r * r - 0.5 * r * r * r
+                   : 0.0;
+  };
+  const Texture texture(picture, Wrap::Clamp);
+  for (int i = 0; i < 100; ++i) {
+    const double x = 1 + 5 * uniform(random), y = 1 + 3 * uniform(random);  // from the first texel's centre
+    const Rgba got = texture.lookup({(x + 0.5) / 8, 1 - (y + 0.5) / 6});
+    for (std::size_t c = 0; c < 2; ++c) {
+      double expected = 0;
+      for (int row = 0; row < 6; ++row) {
+        for (int column = 0; column < 8; ++column) {
+          expected += cubic(column - x) * cubic(row - y) * static_cast<double>(picture.at(column, row)[c]);
+        }
+      }
+      EXPECT_NEAR(got[c], expected, 1e-5);
+    }
+  }
 }
 
 TEST(Texture, OutsideItIsAsTheEdgeSays) {
@@ -63,7 +92,8 @@ TEST(Texture, OutsideItIsAsTheEdgeSays) {
 TEST(Texture, BlackFadesWithinHalfAPixelOfTheEdge) {
   const Texture texture(numbered(8, 4), Wrap::Black);
   EXPECT_NEAR(texture.lookup({0, 0.5})[3], 0.5, 1e-6);
-  EXPECT_NEAR(texture.lookup({0.25 / 8, 0.5})[3], 0.75, 1e-6);
+  // Catmull and Rom's weights at 3/4 of the way from the black to the first column, and of the next column.
+  EXPECT_NEAR(texture.lookup({0.25 / 8, 0.5})[3], 0.8671875 - 0.0703125, 1e-6);
   EXPECT_EQ(texture.lookup({-0.5 / 8, 0.5})[3], 0);
 }
 
@@ -76,7 +106,7 @@ TEST(Texture, GlobeGoesRoundInLongitudeAndOverThePoles) {
   // At the pole columns that are half a turn apart meet: 1 and 5.
   const Rgba pole = texture.lookup({1.5 / 8, 1.0});
   EXPECT_NEAR(pole[0], 3, 1e-5);
-  EXPECT_NEAR(pole[1], 0, 1e-5);
+  EXPECT_NEAR(pole[1], -0.125, 1e-5);  // between rows of 1, 0, 0 and 1 the cubic swings out: -1/16 of each 1
 }
 
 TEST(Texture, OverscanIsUsedWhereTheDisplayWindowEnds) {

@@ -43,7 +43,7 @@ TEST(TruePixels, AreTheSurfaceUnderThePixelFilter) {
   const Scene scene = plain_scene();
   const double edge = 24.25;
   const Tracer tracer = tracer_of(scene);
-  const auto tiles = true_tiles(tracer, {plate_with_edge(edge, 16)}, 4, 32);
+  const auto tiles = true_tiles(tracer, {plate_with_edge(edge, 16)}, 4, 16);
   ASSERT_EQ(tiles.size(), 12U);  // no more than lie side by side
   for (const TrueTile& tile : tiles) {
     for (int i = 0; i < tile.size * tile.size; ++i) {
