@@ -2,9 +2,10 @@
 //
 // Stars as light on the film: every image of every star, with its colour and brightness.
 //
-// The light of an image is what the pixels that it is drawn on add up to. It depends on the star alone, and
-// on by how much it is magnified: not on the field of view or the number of pixels. So a star's dot is as
-// bright at any resolution, as it is as wide in pixels; a picture of more pixels shows finer dots.
+// The light of an image is what the pixels that it is drawn on add up to in the middle of the frame
+// (star_dot.h says elsewhere). It depends on the star alone, and on by how much it is magnified: not on the
+// field of view or the number of pixels. So a star's dot is as bright at any resolution, as it is as wide in
+// pixels; a picture of more pixels shows finer dots.
 
 #pragma once
 

@@ -50,9 +50,10 @@ void dim_hidden(const Tracer& tracer, const std::vector<SurfaceLook>& looks, std
 void add_stars(const Tracer& tracer, const std::vector<SurfaceLook>& looks, const StarField& field,
                Picture& picture) {
   const PointSpread spread;
-  std::vector<StarImage> images = find_star_images(tracer, field, {.margin_px = spread.reach_px()});
+  std::vector<StarImage> images =
+      find_star_images(tracer, field, {.margin_px = spread.reach_px(tracer.camera())});
   dim_hidden(tracer, looks, images);
-  draw_stars(images, spread, picture);
+  draw_stars(images, spread, tracer.camera(), picture);
 }
 
 }  // namespace lensplane

@@ -25,12 +25,12 @@ void add_stars_to_maps(const Shot& shot, ShotAssets& assets, int frame, const Tr
   const PointSpread spread;
   for (std::size_t k = 0; k < shot.layers.size(); ++k) {
     if (!std::holds_alternative<StarsLayer>(shot.layers[k].kind)) continue;
-    std::vector<StarImage> images =
-        find_star_images(tracer, *assets.stars.field(k, frame), {.margin_px = spread.reach_px()});
+    std::vector<StarImage> images = find_star_images(tracer, *assets.stars.field(k, frame),
+                                                     {.margin_px = spread.reach_px(tracer.camera())});
     for (StarImage& image : images) {
       for (double& channel : image.light) channel *= clearness_at(cover, image.film);
     }
-    draw_stars(images, spread, picture);
+    draw_stars(images, spread, tracer.camera(), picture);
   }
 }
 

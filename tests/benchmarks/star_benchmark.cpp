@@ -68,14 +68,14 @@ void find_and_draw_behind_three_masses(benchmark::State& state) {
   const Tracer tracer = tracer_of(scene);
   const StarField field = stars_in_frame(scene, kStars);
   Picture picture = black(scene.camera);
-  for (auto _ : state) draw_stars(find_star_images(tracer, field), {}, picture);
+  for (auto _ : state) draw_stars(find_star_images(tracer, field), {}, tracer.camera(), picture);
 }
 
 void draw(benchmark::State& state) {
   const Scene scene = three_sources();
   const std::vector<StarImage> images = find_star_images(tracer_of(scene), stars_in_frame(scene, kStars));
   Picture picture = black(scene.camera);
-  for (auto _ : state) draw_stars(images, {}, picture);
+  for (auto _ : state) draw_stars(images, {}, scene.camera, picture);
   state.counters["images"] = static_cast<double>(images.size());
 }
 
