@@ -78,9 +78,9 @@ std::optional<BodyImage> image_of(const Sphere& sphere, const LightLine& light, 
 std::optional<BodyImage> image_of(const Ring& ring, const LightLine& light, FilmPosition at) {
   const DualVec3 normal = constant<Dual>(ring.axes.y), centre = constant<Dual>(ring.centre);
   const Dual rate = normal.dot(light.direction);
-  if (value_of(rate) == 0.0) return std::nullopt;
-  const DualVec3 point =
-      light.start + light.direction * (normal.dot(centre - light.start) * reciprocal(rate)) - centre;
+  const Dual way = normal.dot(centre - light.start) * reciprocal(rate);
+  if (!(value_of(way) > 0.0) || value_of(rate) == 0.0) return std::nullopt;
+  const DualVec3 point = light.start + light.direction * way - centre;
   const TangentPlane plane{ring.axes.z, ring.axes.x};
   const auto [u, v] = on_plane(plane, value_of(point));
   return BodyImage{at, u, v, jacobian_of(plane, point), ring.inner, ring.outer};

@@ -48,7 +48,7 @@ struct BodyImage {
   bool holds(FilmPosition film, double slack = 0) const;
 };
 
-/// `light` is that of `at`. Nothing for a ring that is seen exactly edge-on.
+/// `light` is that of `at`. Nothing for a ring whose plane it does not come to.
 std::optional<BodyImage> body_image(const Surface& body, const LightLine& light, FilmPosition at);
 
 /// How far apart on the film two images take the film position `film` of the one to be, in pixels.

@@ -226,7 +226,9 @@ std::optional<LightLine> PassingLight::past_on_curve(const GeodesicRay<Dual>& ra
     const bool forward = value_of(before.length) < value_of(behind.length);
     const DualVec3 &from = forward ? before.point : behind.point, &to = forward ? behind.point : before.point;
     const DualVec3 way = to - from;
-    const LightLine line{from, way * reciprocal(length(way))};
+    const DualVec3 direction = way * reciprocal(length(way));
+    // From as far back as the camera is: the body may be nearest before the slab.
+    const LightLine line{from - direction * Dual(length(value_of(from))), direction};
     const double gap = gap_of(tracer_.surfaces()[k], line);
     if (!(gap < least)) continue;
     least = gap;

@@ -210,6 +210,25 @@ TEST(ThinBodies, RingsBehindALensHaveTheLightOfVeryManyRays) {
   }
 }
 
+TEST(ThinBodies, ARingRoundAMassHasItsLightByEveryMethod) {
+  Scene scene;
+  scene.camera.width = scene.camera.height = 80;
+  scene.camera.fov_rad = 1;
+  scene.camera.position = {0, 2, 14};
+  scene.camera.axes = basis_looking_along({0, -2, -14}, {0, 1, 0});
+  scene.lenses = {{0.005, {0, 0, 0}}};
+  scene.surfaces = {Ring{{0, 0, 0}, {}, 4.9, 5}};
+  const double expected = area_by_rays(Tracer(scene, plan_trace(scene, Method::Planes)), 32);
+  for (const Method method : {Method::Planes, Method::Geodesic}) {
+    TraceSettings settings;
+    settings.method = method;
+    settings.effects.jacobian = true;
+    const Picture picture =
+        composite(Tracer(scene, plan_trace(scene, settings)), {{flat(kGreen)}}, {}).picture;
+    EXPECT_NEAR(sum_of(picture, 1) / expected, 1, kLightError) << static_cast<int>(method);
+  }
+}
+
 TEST(ThinBodies, OnPanoramicFilmsAreAsLargeAsTheFilmMakesThem) {
   for (const Projection projection : {Projection::LatLong, Projection::Fisheye}) {
     for (const double angle : {0.02, 0.7, 1.4}) {  // latitude, or from the axis
