@@ -241,7 +241,7 @@ TEST(Compositor, StarsShineThroughWhatIsHalfTransparent) {
 TEST(Compositor, MeansOfSeveralAddUpAndScale) {
   const auto of = [](const Rgba& colour, double hits, std::int64_t rays, std::int64_t refined) {
     return Composite{
-        {Picture{1, 2, 0, 0, 1, 2, {colour, {1, 2, 3, 1}}}, {colour[3], 0}}, {hits, 1}, rays, refined};
+        {Picture{1, 2, 0, 0, 1, 2, {colour, {1, 2, 3, 1}}}, {colour[3], 0}}, {hits, 1}, rays, 0, refined};
   };
   Composite sum = of({0.2F, 0.4F, 0.6F, 1}, 3, 100, 7);
   add(of({0.6F, 0, 0.2F, 0.5F}, 5, 50, 2), sum);
