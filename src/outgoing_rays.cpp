@@ -65,14 +65,6 @@ std::vector<OutgoingRay> each_ray(const Camera& camera, std::span<const FilmPosi
   return rays;
 }
 
-std::vector<PointMass> masses_of(const Plan& plan) {
-  std::vector<PointMass> masses;
-  for (const LensPlane& plane : plan.planes) {
-    for (const Source& source : plane.sources) masses.push_back({source.m, source.position});
-  }
-  return masses;
-}
-
 }  // namespace
 
 std::vector<OutgoingRay> outgoing_rays(const Scene& scene, const Plan& plan,
@@ -81,12 +73,12 @@ std::vector<OutgoingRay> outgoing_rays(const Scene& scene, const Plan& plan,
   if (plan.method != Method::Geodesic)
     return each_ray(camera, films, [&](FilmPosition film) { return ray_by_planes(camera, plan, film); });
   std::vector<OutgoingRay> rays(films.size());
-  const std::vector<PointMass> masses = masses_of(plan);
   const std::size_t pieces = (films.size() + kBatchSize - 1) / kBatchSize;
   tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t piece) {
     const std::size_t begin = piece * kBatchSize,
                       count = std::min<std::size_t>(kBatchSize, films.size() - begin);
-    trace_curved(camera, plan, masses, films.subspan(begin, count), std::span(rays).subspan(begin, count));
+    trace_curved(camera, plan, plan.masses, films.subspan(begin, count),
+                 std::span(rays).subspan(begin, count));
   });
   return rays;
 }

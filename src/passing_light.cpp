@@ -25,8 +25,8 @@ constexpr double kRingSlab = 1e-3, kSphereSlab = 1.0;
 constexpr int kCrossings = 2;
 
 /// Are bodies met by curved rays?
-bool meets_bodies_by_curve(const Plan& plan) {
-  return plan.method == Method::Geodesic;
+bool meets_bodies_by_curve(const Plan& plan, const Camera& camera, FilmPosition film) {
+  return plan.method == Method::Geodesic || curves_at(plan, camera, film);
 }
 
 /// All that bend light.
@@ -182,7 +182,7 @@ PassingLight::PassingLight(const Tracer& tracer, std::span<const FilmPosition> f
   std::vector<FilmPosition> curved;
   for (const FilmPosition film : films) {
     first_.push_back(direction_from_film<double>(camera, film));
-    if (meets_bodies_by_curve(plan)) {
+    if (meets_bodies_by_curve(plan, camera, film)) {
       ways_.push_back({true, curved.size()});
       curved.push_back(film);
       continue;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "src/bodies.h"
 #include "src/plan_bounds.h"
 #include "src/plan_words.h"
 
@@ -18,13 +19,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // How the tolerance is shared out: a quarter each for lenses left out, for the laws of single tiles, for the
 // laws of single lenses, and for finite distances.
 constexpr double kShare = 0.25;
-
-TileLevels tiles_of(const Camera& camera) {
-  TileLevels tiles;
-  tiles.columns = (camera.full_width() + tiles.size - 1) / tiles.size;
-  tiles.rows = (camera.full_height() + tiles.size - 1) / tiles.size;
-  return tiles;
-}
 
 /// The deflectors of `all` that `keeps(lens)` keeps, each with the law that `law(lens)` gives it, in company
 /// where `company(lens)` says so.
@@ -150,6 +144,67 @@ EffectPlan joint_plan(const TraceSettings& settings, std::size_t masses, const F
   return effect;
 }
 
+/// Which tiles meet bodies by curved rays: where chords would misplace them by more than `budget_px`. What
+/// that is, and what is left out elsewhere.
+EffectPlan choose_curves(const Camera& camera, double budget_px, const FilmBounds& bounds,
+                         TileLevels& tiles) {
+  double there = 0.0, elsewhere = 0.0;
+  for (const TileBound& tile : bounds.tiles) {
+    const bool curved = tile.chords_px > budget_px;
+    tiles.curved.push_back(curved ? 1 : 0);
+    tiles.chords_px.push_back(tile.chords_px);
+    double& most = curved ? there : elsewhere;
+    most = std::max(most, tile.chords_px);
+  }
+  const double share = shares_of(tiles, camera, tiles.curved, 2)[1];
+  return {std::string(kCurvedEffect), share == 1.0, elsewhere, reason_of_curves(share, there, elsewhere),
+          share};
+}
+
+/// What chords misplace where curved rays are not taken, for the reason `why`.
+EffectPlan stay_with_chords(const std::string& why, const FilmBounds& bounds, TileLevels& tiles) {
+  double most = 0.0;
+  for (const TileBound& tile : bounds.tiles) {
+    tiles.chords_px.push_back(tile.chords_px);
+    most = std::max(most, tile.chords_px);
+  }
+  return {std::string(kCurvedEffect), false, most, why + "; " + reason_of_curves(0.0, 0.0, most), 0.0};
+}
+
+/// The masses of a scene that `keeps(lens)` keeps, as curved rays meet them.
+template <class Keeps>
+std::vector<PointMass> masses_of(const Scene& scene, Keeps keeps) {
+  std::vector<PointMass> masses;
+  for (const DeflectorPlane& plane : deflectors_of(scene, Law::Exact, true).planes) {
+    for (const Deflector& d : plane.deflectors) {
+      if (keeps(d.lens)) masses.push_back({d.m, d.position});
+    }
+  }
+  return masses;
+}
+
+bool meets_bodies(const Scene& scene) {
+  return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), is_body) &&
+         std::any_of(scene.lenses.begin(), scene.lenses.end(), [](const Lens& lens) { return lens.m > 0.0; });
+}
+
+/// What meets the bodies: curved rays where the plan is free to choose.
+void plan_curves(const Scene& scene, const TraceSettings& settings, const EffectPlan& finite,
+                 const FilmBounds& bounds, Plan& plan) {
+  const bool told = settings.law || settings.finite_distance == Choice::Off;
+  TileLevels& tiles = plan.tiles;
+  if (tiles.columns == 0) tiles = tiles_of(scene.camera);
+  plan.masses = masses_of(scene, [&](std::size_t lens) { return !plan.lenses[lens].culled; });
+  const bool many = plan.masses.size() > kMostCurvedMasses;
+  const double budget = kShare * settings.tolerance_px - (finite.on ? 0.0 : finite.bound_px);
+  const EffectPlan curves = told   ? stay_with_chords("not with a given law or distance", bounds, tiles)
+                            : many ? stay_with_chords("too many masses", bounds, tiles)
+                                   : choose_curves(scene.camera, budget, bounds, tiles);
+  if (!(curves.share > 0.0)) plan.masses.clear();
+  plan.choices.insert(plan.choices.begin() + 2, curves);
+  plan.bound_px += curves.bound_px;
+}
+
 std::vector<EffectPlan> called_for(const Effects& effects) {
   std::vector<EffectPlan> plans;
   for (const EffectName& entry : kEffectNames) {
@@ -257,6 +312,7 @@ void plan_planes(const Scene& scene, const TraceSettings& settings, Plan& plan) 
     plan_within_tolerance(scene, settings, finite, everything, bounds, plan);
   }
   plan.bound_px += joint.bound_px;
+  if (meets_bodies(scene)) plan_curves(scene, settings, finite, bounds, plan);
 }
 
 }  // namespace
@@ -272,6 +328,11 @@ Plan plan_trace(const Scene& scene, const TraceSettings& settings) {
   } else {
     plan.planes = lens_planes(scene, settings.method);
   }
+  if (settings.method == Method::Geodesic) {
+    for (const LensPlane& plane : plan.planes) {
+      for (const Source& source : plane.sources) plan.masses.push_back({source.m, source.position});
+    }
+  }
   return plan;
 }
 
@@ -280,36 +341,23 @@ Plan plan_trace(const Scene& scene, Method method) {
 }
 
 std::size_t level_at(const Plan& plan, const Camera& camera, FilmPosition film) {
-  const TileLevels& tiles = plan.tiles;
-  if (tiles.level.empty()) return plan.recipes.size() - 1;
-  const auto tile = [&](double position, int count) {
-    const double index = std::floor((position + camera.overscan) / tiles.size);
-    return static_cast<std::size_t>(std::clamp(index, 0.0, count - 1.0));
-  };
-  return tiles.level[tile(film.y, tiles.rows) * static_cast<std::size_t>(tiles.columns) +
-                     tile(film.x, tiles.columns)];
+  if (plan.tiles.level.empty()) return plan.recipes.size() - 1;
+  return plan.tiles.level[tile_at(plan.tiles, camera, film)];
+}
+
+bool curves_at(const Plan& plan, const Camera& camera, FilmPosition film) {
+  return !plan.tiles.curved.empty() && plan.tiles.curved[tile_at(plan.tiles, camera, film)] != 0;
+}
+
+double chords_px_at(const Plan& plan, const Camera& camera, FilmPosition film) {
+  return plan.tiles.chords_px.empty() ? 0.0 : plan.tiles.chords_px[tile_at(plan.tiles, camera, film)];
 }
 
 std::vector<double> recipe_shares(const Plan& plan, const Camera& camera) {
   const TileLevels& tiles = plan.tiles;
+  if (!tiles.level.empty()) return shares_of(tiles, camera, tiles.level, plan.recipes.size());
   std::vector<double> shares(plan.recipes.size(), 0.0);
-  if (shares.empty()) return shares;
-  if (tiles.level.empty()) {
-    shares.back() = 1.0;
-    return shares;
-  }
-  const std::int64_t width = camera.full_width(), height = camera.full_height();
-  std::vector<std::int64_t> pixels(plan.recipes.size(), 0);
-  for (int row = 0; row < tiles.rows; ++row) {
-    for (int column = 0; column < tiles.columns; ++column) {
-      const std::int64_t across = std::min<std::int64_t>(tiles.size, width - column * tiles.size);
-      const std::int64_t down = std::min<std::int64_t>(tiles.size, height - row * tiles.size);
-      pixels[tiles.level[static_cast<std::size_t>(row * tiles.columns + column)]] += across * down;
-    }
-  }
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    shares[i] = static_cast<double>(pixels[i]) / static_cast<double>(width * height);
-  }
+  if (!shares.empty()) shares.back() = 1.0;
   return shares;
 }
 

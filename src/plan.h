@@ -18,6 +18,7 @@
 #include "src/deflectors.h"
 #include "src/effects.h"
 #include "src/method.h"
+#include "src/plan_tiles.h"
 #include "src/projection.h"
 
 namespace lensplane {
@@ -56,13 +57,11 @@ struct EffectPlan {
   double share = 0;  // of the film where it is simulated; of the finite distance perhaps only near masses
 };
 
-/// Square tiles of the film, overscan included, from its upper left; each has its laws.
-struct TileLevels {
-  int size = 64;  // pixels
-  int columns = 0;
-  int rows = 0;
-  std::vector<std::uint8_t> level;  // index into Plan::recipes, row by row; empty: the last recipe everywhere
-};
+/// Curved rays take time in proportion to the masses: past more of them than this bodies stay with chords.
+inline constexpr std::size_t kMostCurvedMasses = 200;
+
+/// The name of the curved rays by which bodies are met, among the effects.
+inline constexpr std::string_view kCurvedEffect = "curved rays";
 
 struct Plan {
   Method method = Method::Planes;
@@ -70,11 +69,12 @@ struct Plan {
   std::vector<LensPlane> planes;    // of the paper's methods, as lens_planes orders them
   std::vector<Deflectors> recipes;  // of `planes`: cheapest first; the last simulates everything asked for
   TileLevels tiles;
+  std::vector<PointMass> masses;     // that curved rays meet, in camera axes
   double geodesic_tolerance = 1e-9;  // radians
 
   std::vector<LensPlan> lenses;     // by `planes`, in the order of the scene
   std::vector<EffectPlan> choices;  // every effect; by `planes` first the finite distance, then what masses
-                                    // do together
+                                    // do together, and, where there are bodies, what meets them
   double near_masses = 0;  // the share of the film whose tiles are wild (plan_bounds.h): nothing is left out
   double bound_px = 0;     // all that is left out, at most
 };
@@ -93,6 +93,12 @@ Plan plan_trace(const Scene& scene, Method method);
 
 /// The recipe of the tile in which a film position lies.
 std::size_t level_at(const Plan& plan, const Camera& camera, FilmPosition film);
+
+/// Are bodies met by curved rays at a film position? What lies at infinity is seen by the tile's recipe.
+bool curves_at(const Plan& plan, const Camera& camera, FilmPosition film);
+
+/// By how much chords would misplace bodies at a film position at most, in pixels; infinite without a bound.
+double chords_px_at(const Plan& plan, const Camera& camera, FilmPosition film);
 
 /// The share of the film, overscan included, that each recipe traces.
 std::vector<double> recipe_shares(const Plan& plan, const Camera& camera);

@@ -11,6 +11,8 @@
 #include <limits>
 
 #include "src/bodies.h"
+#include "src/bundle_way.h"
+#include "src/chord_bounds.h"
 #include "src/constants.h"
 #include "src/disc.h"
 #include "src/planes_march.h"
@@ -75,12 +77,6 @@ struct Passes {
   Vec3 last{0};
   double last_spread = 0;
 };
-
-/// Largest |d alpha/db| and alpha/b from b on.
-double growth_at(double m, double b) {
-  const Deflection d = exact_law(m, b);
-  return std::max(-d.dalpha_db, d.alpha / b);
-}
 
 /// Follows a bundle past the masses; wild as soon as nothing is known any more.
 Passes pass_all(const Deflectors& everything, const Bundle& bundle, double unseen_angle,
@@ -169,13 +165,6 @@ FiniteBound finite_bound(const Pass& pass) {
   return {weak + excess * (in_full ? 1.0 : 1.0 - h) + (n - 1.0) * b * pass.growth, (n - 1.0) * b};
 }
 
-/// Metres from a point to a body, 0 inside it.
-double gap_to_body(const Surface& surface, const Vec3& point) {
-  const auto* sphere = std::get_if<Sphere>(&surface);
-  if (!sphere) return gap_to(*disc_of(surface), point);
-  return std::max(0.0, length(sphere->centre - point) - sphere->radius);
-}
-
 /// What the finite distance of bodies changes, as an angle at the camera. Beside a mass that is in the plane
 /// of a disc it is 2 m; inside a ball there is no limit.
 double body_bound(const std::vector<Surface>& bodies, const Pass& pass) {
@@ -226,12 +215,30 @@ void raise(double& most, double value) {
   most = std::max(most, value);
 }
 
+/// What chords misplace, in pixels: of cards, as of plates, more towards the edges of a wide frame.
+double chords_bound(const Stage& stage, const Deflectors& everything, const Bundle& bundle,
+                    double unseen_angle) {
+  if (stage.bodies.empty() || everything.planes.empty() || everything.blind) return 0.0;
+  const BundleWay way = follow_bundle(everything, bundle.direction, bundle.spread, unseen_angle);
+  const double middle = 1.0 / pixel_angle(stage.camera);
+  const bool flat = stage.camera.projection == Projection::Perspective;
+  double most = 0.0;
+  for (const Surface& body : stage.bodies) {
+    if (!may_meet(way, body)) continue;
+    const bool stretched = flat && std::holds_alternative<Card>(body);
+    const double cosine = stretched ? -bundle.direction.z : 1.0;
+    most = std::max(most, middle / (cosine * cosine) * misplaced_by_chords(way, body));
+  }
+  return most;
+}
+
 TileBound bound_tile(const Stage& stage, const Deflectors& everything, const Bundle& bundle,
                      std::vector<LensBound>& lenses) {
   const double unseen = kUnseenPixels * pixel_angle(stage.camera);
   const Passes passes = pass_all(everything, bundle, unseen, lenses);
   const double px = pixels_per_radian(stage.camera, stage.plates, passes);
   TileBound tile;
+  tile.chords_px = chords_bound(stage, everything, bundle, unseen);
   tile.wild = passes.wild || !(px < kInfinity);
   if (tile.wild) return tile;
   Growth growth{1.0, stage.per_metre};

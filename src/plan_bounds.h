@@ -16,6 +16,9 @@
 // than the Einstein radius), or turns back, or spreads so far that nothing is known of it: there everything
 // is simulated. And light that passes a mass nearer than kUnseenPixels of a pixel is left out of account: a
 // mass that moves nothing else is not seen on any film.
+//
+// What chords misplace is no simplification of these: it counts also where everything else is simulated, and
+// in wild tiles (chord_bounds.h).
 
 #pragma once
 
@@ -41,6 +44,7 @@ struct TileBound {
   double second_order_px = 0;  // all laws of second order
   double gain_px = 0;          // every mass by itself (company.h)
   double joint_px = 0;         // what masses do together and no law knows
+  double chords_px = 0;        // bodies met by chords instead of curved rays; infinite where nothing is known
 };
 
 /// What leaving out one lens, or a part of it, would move at most on all tiles that are not wild, in pixels.

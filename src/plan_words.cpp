@@ -50,6 +50,10 @@ std::string describe_planes(const Plan& plan) {
     if (plan.near_masses > 0.0 && plan.near_masses < 1.0)
       text += "; nothing left out near masses (" + in_percent(plan.near_masses) + " of the film)";
   }
+  for (const EffectPlan& effect : plan.choices) {
+    if (effect.name == kCurvedEffect && effect.share > 0.0)
+      text += "; bodies by curved rays (" + in_percent(effect.share) + " of the film)";
+  }
   const bool bounded = plan.bound_px < std::numeric_limits<double>::infinity();
   return text + "; " + (bounded ? "within " : "") + in_pixels(plan.bound_px);
 }
@@ -89,6 +93,17 @@ std::string reason_near_masses(double near_masses, double elsewhere_px) {
   if (near_masses == 1.0) return "the whole film is near masses";
   return "on near masses (" + in_percent(near_masses) +
          " of the film); elsewhere it would move no pixel by more than " + in_pixels(elsewhere_px);
+}
+
+std::string reason_of_curves(double curved, double there_px, double elsewhere_px) {
+  const bool bounded = there_px < std::numeric_limits<double>::infinity();
+  const std::string there =
+      "chords would misplace bodies " + (bounded ? "by up to " + in_pixels(there_px) : "without limit");
+  const bool all_bounded = elsewhere_px < std::numeric_limits<double>::infinity();
+  const std::string chords = all_bounded ? "chords misplace bodies by no more than " + in_pixels(elsewhere_px)
+                                         : std::string("chords misplace bodies without limit");
+  if (curved == 1.0) return there;
+  return curved > 0.0 ? there + " on " + in_percent(curved) + " of the film; elsewhere " + chords : chords;
 }
 
 std::string describe(const Plan& plan) {

@@ -27,6 +27,10 @@ std::string reason_of(const LensPlan& lens, const LensBound& bound, double near_
 /// The reason for a finite distance that is simulated only on the share `near_masses` of the film.
 std::string reason_near_masses(double near_masses, double elsewhere_px);
 
+/// Why bodies are met by curved rays on the share `curved` of the film, where chords would misplace them by
+/// up to `there_px`, and by chords elsewhere.
+std::string reason_of_curves(double curved, double there_px, double elsewhere_px);
+
 /// The plan in one line: "planes: 3 lenses, 2 weak, 1 exact; finite distance off; within 0.021 px".
 std::string describe(const Plan& plan);
 

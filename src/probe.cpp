@@ -40,7 +40,9 @@ Probe probe(const Scene& scene, const Plan& plan, FilmPosition film) {
   surfaces.push_back(LatLong{});
   const Sight sight{camera, surfaces, plan.effects};
   result.recipe = plan.method == Method::Planes ? level_at(plan, camera, film) : 0;
-  const auto hits = trace_ray<Dual>(sight, plan, result.recipe, film).hits;
+  result.curved = plan.method == Method::Geodesic || curves_at(plan, camera, film);
+  result.chords_px = chords_px_at(plan, camera, film);
+  const auto hits = trace_film<Dual>(sight, plan, film).hits;
   for (std::size_t k = 0; k < scene.surfaces.size(); ++k) result.surfaces.push_back(probed(hits[k]));
   const SurfaceHit<Dual>& sky = hits.back();
   result.captured = sky.outcome == Outcome::Captured;

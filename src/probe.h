@@ -37,6 +37,8 @@ struct Probe {
   Vec3 first{0};                          // unit vector in the world, at the camera
   Vec3 last{0};                           // after the last bend
   std::size_t recipe = 0;                 // of the plan's recipes, by `planes`
+  bool curved = false;                    // bodies are met by curved rays
+  double chords_px = 0;                   // by how much chords would misplace them at most, by `planes`
   std::vector<ProbedCrossing> crossings;  // by the plane methods, in the order of the ray
   std::vector<ProbedSurface> surfaces;    // in the order of the scene
 };

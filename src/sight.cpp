@@ -70,7 +70,7 @@ void see_at_infinity(const Sight& sight, const Surface& surface, const LineBatch
 }  // namespace
 
 bool Sight::any_body() const {
-  return std::any_of(surfaces.begin(), surfaces.end(), is_body);
+  return bodies && std::any_of(surfaces.begin(), surfaces.end(), is_body);
 }
 
 namespace {
@@ -137,18 +137,28 @@ void set(const Sight& sight, const RayHits<Number>& ray, int i, TraceBatch& batc
   batch.captured[i] = ray.captured ? 1.0 : 0.0;
 }
 
+namespace {
+
+void copy_ray(const SurfaceBatch& a, int i, SurfaceBatch& b, int k) {
+  b.s[k] = a.s[i], b.t[k] = a.t[i], b.distance[k] = a.distance[i], b.outcome[k] = a.outcome[i];
+  if (!a.passes) return;
+  const PassBatch& p = *a.passes;
+  PassBatch& q = *b.passes;
+  q.ds_dx[k] = p.ds_dx[i], q.ds_dy[k] = p.ds_dy[i], q.dt_dx[k] = p.dt_dx[i], q.dt_dy[k] = p.dt_dy[i];
+  q.magnification[k] = p.magnification[i], q.delay[k] = p.delay[i], q.bends[k] = p.bends[i];
+  q.dir_x[k] = p.dir_x[i], q.dir_y[k] = p.dir_y[i], q.dir_z[k] = p.dir_z[i];
+}
+
+}  // namespace
+
 void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k) {
   to.captured[k] = from.captured[i];
-  for (std::size_t n = 0; n < from.surfaces.size(); ++n) {
-    const SurfaceBatch& a = from.surfaces[n];
-    SurfaceBatch& b = to.surfaces[n];
-    b.s[k] = a.s[i], b.t[k] = a.t[i], b.distance[k] = a.distance[i], b.outcome[k] = a.outcome[i];
-    if (!a.passes) continue;
-    const PassBatch& p = *a.passes;
-    PassBatch& q = *b.passes;
-    q.ds_dx[k] = p.ds_dx[i], q.ds_dy[k] = p.ds_dy[i], q.dt_dx[k] = p.dt_dx[i], q.dt_dy[k] = p.dt_dy[i];
-    q.magnification[k] = p.magnification[i], q.delay[k] = p.delay[i], q.bends[k] = p.bends[i];
-    q.dir_x[k] = p.dir_x[i], q.dir_y[k] = p.dir_y[i], q.dir_z[k] = p.dir_z[i];
+  for (std::size_t n = 0; n < from.surfaces.size(); ++n) copy_ray(from.surfaces[n], i, to.surfaces[n], k);
+}
+
+void copy_bodies(const std::vector<Surface>& surfaces, const TraceBatch& from, int i, TraceBatch& to, int k) {
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    if (is_body(surfaces[n])) copy_ray(from.surfaces[n], i, to.surfaces[n], k);
   }
 }
 

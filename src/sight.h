@@ -26,6 +26,7 @@ struct Sight {
   const Effects& effects;
   double slope = 0;                    // slope_per_pixel() of a perspective camera
   const Deflectors* finite = nullptr;  // the masses, when their finite distance from surfaces counts
+  bool bodies = true;                  // are they looked for?
 
   bool any_body() const;
 };
@@ -56,6 +57,9 @@ void set(const Sight& sight, const RayHits<Number>& ray, int i, TraceBatch& batc
 
 /// Copies one ray's results, on all surfaces.
 void copy_ray(const TraceBatch& from, int i, TraceBatch& to, int k);
+
+/// Copies one ray's results on bodies alone.
+void copy_bodies(const std::vector<Surface>& surfaces, const TraceBatch& from, int i, TraceBatch& to, int k);
 
 /// A stretch of a ray between planes, or a chord of its way round the masses of one.
 enum class Stretch { Straight, Chord };

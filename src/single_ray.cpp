@@ -38,18 +38,14 @@ SurfaceHit<Number> hit_of_body(const Surface& surface, const Camera& camera, Fil
   return hit;
 }
 
-/// The masses and bodies of the scene as curved rays meet them.
+/// The bodies of the scene as curved rays meet them.
 struct CurvedScene {
-  std::vector<PointMass> masses;
   std::vector<Ball> balls;
   std::vector<Disc> discs;
 };
 
-CurvedScene curved_scene(const Sight& sight, const Plan& plan) {
+CurvedScene curved_scene(const Sight& sight) {
   CurvedScene scene;
-  for (const LensPlane& plane : plan.planes) {
-    for (const Source& source : plane.sources) scene.masses.push_back({source.m, source.position});
-  }
   for (const Surface& surface : sight.surfaces) {
     if (const auto* sphere = std::get_if<Sphere>(&surface)) {
       scene.balls.push_back({sphere->centre, sphere->radius});
@@ -96,13 +92,13 @@ RayPath<Number> path_of_ray(const Camera& camera, const Plan& plan, std::size_t 
 template <class Number>
 std::vector<RayHits<Number>> trace_curved_rays(const Sight& sight, const Plan& plan,
                                                std::span<const FilmPosition> films) {
-  const CurvedScene scene = curved_scene(sight, plan);
+  const CurvedScene scene = curved_scene(sight);
   std::vector<Vector<Number>> first;
   for (const FilmPosition film : films) first.push_back(direction_from_film<Number>(sight.camera, film));
   const Vector<Number> camera(Number(0.0), Number(0.0), Number(0.0));
   const auto rays =
-      trace_geodesics<Number>(scene.masses, camera, first, plan.geodesic_tolerance,
-                              {scene.balls, scene.discs}, {sight.effects.delay, kDerivativesError});
+      trace_geodesics<Number>(plan.masses, camera, first, plan.geodesic_tolerance, {scene.balls, scene.discs},
+                              {sight.effects.delay, kDerivativesError});
   std::vector<RayHits<Number>> hits;
   for (std::size_t i = 0; i < films.size(); ++i) {
     hits.push_back(hits_of(sight, films[i], first[i], rays[i]));
@@ -122,6 +118,19 @@ RayHits<Number> trace_ray(const Sight& sight, const Plan& plan, std::size_t reci
   return {std::move(hits), path.captured};
 }
 
+template <class Number>
+RayHits<Number> trace_film(const Sight& sight, const Plan& plan, FilmPosition film) {
+  const bool planes = plan.method == Method::Planes;
+  const std::size_t recipe = planes ? level_at(plan, sight.camera, film) : 0;
+  RayHits<Number> ray = trace_ray<Number>(sight, plan, recipe, film);
+  if (!planes || !curves_at(plan, sight.camera, film)) return ray;
+  RayHits<Number> curved = trace_curved_rays<Number>(sight, plan, {&film, 1}).front();
+  for (std::size_t k = 0; k < ray.hits.size(); ++k) {
+    if (is_body(sight.surfaces[k])) ray.hits[k] = std::move(curved.hits[k]);
+  }
+  return ray;
+}
+
 template RayPath<double> path_of_ray(const Camera&, const Plan&, std::size_t, FilmPosition);
 template RayPath<Dual> path_of_ray(const Camera&, const Plan&, std::size_t, FilmPosition);
 template std::vector<RayHits<double>> trace_curved_rays(const Sight&, const Plan&,
@@ -130,5 +139,7 @@ template std::vector<RayHits<Dual>> trace_curved_rays(const Sight&, const Plan&,
                                                       std::span<const FilmPosition>);
 template RayHits<double> trace_ray(const Sight&, const Plan&, std::size_t, FilmPosition);
 template RayHits<Dual> trace_ray(const Sight&, const Plan&, std::size_t, FilmPosition);
+template RayHits<double> trace_film(const Sight&, const Plan&, FilmPosition);
+template RayHits<Dual> trace_film(const Sight&, const Plan&, FilmPosition);
 
 }  // namespace lensplane

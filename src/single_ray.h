@@ -18,7 +18,11 @@ namespace lensplane {
 template <class Number>
 RayHits<Number> trace_ray(const Sight& sight, const Plan& plan, std::size_t recipe, FilmPosition film);
 
-/// The same by `geodesic` for many rays at once.
+/// The same as the plan has it at `film`: by its tile's recipe, bodies perhaps by curved rays.
+template <class Number>
+RayHits<Number> trace_film(const Sight& sight, const Plan& plan, FilmPosition film);
+
+/// The same by curved rays, for many at once.
 template <class Number>
 std::vector<RayHits<Number>> trace_curved_rays(const Sight& sight, const Plan& plan,
                                                std::span<const FilmPosition> films);

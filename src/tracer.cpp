@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "src/bodies.h"
@@ -171,8 +172,8 @@ Tracer::Tracer(const Scene& scene, Plan plan) : camera_(scene.camera), plan_(std
   for (const Surface& surface : scene.surfaces) surfaces_.push_back(camera_from_world(camera_, surface));
 }
 
-Sight Tracer::sight(const Deflectors* finite) const {
-  return {camera_, surfaces_, plan_.effects, slope_, finite};
+Sight Tracer::sight(const Deflectors* finite, bool bodies) const {
+  return {camera_, surfaces_, plan_.effects, slope_, finite, bodies};
 }
 
 TraceBatch Tracer::make_batch() const {
@@ -195,7 +196,9 @@ void Tracer::trace(TraceBatch& batch) const {
   } else if (paper && flat && !plan_.effects.derivatives() && !plan_.effects.delay) {
     trace_by_paper(batch);
   } else if (plan_.method == Method::Geodesic) {
-    plan_.effects.derivatives() ? trace_curved<Dual>(batch) : trace_curved<double>(batch);
+    std::array<int, kBatchSize> all;
+    std::iota(all.begin(), all.end(), 0);
+    trace_curved(all, false, batch);
   } else {
     for (int i = 0; i < kBatchSize; ++i) trace_singly(0, i, batch);
   }
@@ -209,23 +212,29 @@ void Tracer::trace(TraceBatch& batch) const {
   }
 }
 
-/// By the laws of each ray's own tile.
+/// By the laws of each ray's own tile; bodies by curved rays where the plan says so.
 void Tracer::trace_by_planes(TraceBatch& batch) const {
+  const std::vector<int> curved = curved_rays(batch);
+  const bool bodies = curved.size() < kBatchSize;
   const LevelRange levels = levels_of(plan_, camera_, batch.x, batch.y);
-  if (levels.least == levels.most) return trace_by_recipe(levels.least, Reach::Far, batch);
-  for (std::size_t level = levels.least; level <= levels.most; ++level) {
-    PickedRays rays = picked(sight(), batch, [&](int i) {
-      return level_at(plan_, camera_, {batch.x[i], batch.y[i]}) == level;
-    });
-    if (rays.rays.empty()) continue;
-    trace_by_recipe(level, Reach::Far, rays.batch);
-    put_back(rays, batch);
+  if (levels.least == levels.most) {
+    trace_by_recipe(levels.least, Reach::Far, bodies, batch);
+  } else {
+    for (std::size_t level = levels.least; level <= levels.most; ++level) {
+      PickedRays rays = picked(sight(), batch, [&](int i) {
+        return level_at(plan_, camera_, {batch.x[i], batch.y[i]}) == level;
+      });
+      if (rays.rays.empty()) continue;
+      trace_by_recipe(level, Reach::Far, bodies, rays.batch);
+      put_back(rays, batch);
+    }
   }
+  if (!curved.empty()) trace_curved(curved, true, batch);
 }
 
-void Tracer::trace_by_recipe(std::size_t recipe, Reach reach, TraceBatch& batch) const {
+void Tracer::trace_by_recipe(std::size_t recipe, Reach reach, bool bodies, TraceBatch& batch) const {
   const Deflectors& deflectors = plan_.recipes[recipe];
-  const Sight view = sight(deflectors.finite_distance ? &deflectors : nullptr);
+  const Sight view = sight(deflectors.finite_distance ? &deflectors : nullptr, bodies);
   alignas(64) BatchArray irregular;
   const bool any = plan_.effects.derivatives()
                        ? march_planes_batch<Dual>(view, deflectors, reach, batch, irregular)
@@ -233,7 +242,7 @@ void Tracer::trace_by_recipe(std::size_t recipe, Reach reach, TraceBatch& batch)
   if (!any) return;
   if (reach == Reach::Far) {
     PickedRays rays = picked(view, batch, [&](int i) { return irregular[i] != 0.0; });
-    trace_by_recipe(recipe, Reach::Near, rays.batch);
+    trace_by_recipe(recipe, Reach::Near, bodies, rays.batch);
     put_back(rays, batch);
     return;
   }
@@ -266,13 +275,34 @@ void Tracer::trace_by_paper(TraceBatch& batch) const {
   }
 }
 
-template <class Number>
-void Tracer::trace_curved(TraceBatch& batch) const {
-  std::array<FilmPosition, kBatchSize> films;
-  for (std::size_t i = 0; i < kBatchSize; ++i) films[i] = {batch.x[i], batch.y[i]};
+/// Curved rays, what they meet on the bodies or on all surfaces.
+void Tracer::trace_curved(std::span<const int> rays, bool bodies_only, TraceBatch& batch) const {
+  std::vector<FilmPosition> films;
+  for (const int i : rays) films.push_back({batch.x[i], batch.y[i]});
   const Sight view = sight();
-  const auto hits = trace_curved_rays<Number>(view, plan_, films);
-  for (int i = 0; i < kBatchSize; ++i) set(view, hits[static_cast<std::size_t>(i)], i, batch);
+  const auto put = [&](const auto& seen) {
+    for (std::size_t n = 0; n < rays.size(); ++n) {
+      for (std::size_t k = 0; bodies_only && k < surfaces_.size(); ++k) {
+        if (is_body(surfaces_[k])) set(view, seen[n].hits[k], rays[n], batch.surfaces[k]);
+      }
+      if (!bodies_only) set(view, seen[n], rays[n], batch);
+    }
+  };
+  if (plan_.effects.derivatives()) {
+    put(trace_curved_rays<Dual>(view, plan_, films));
+  } else {
+    put(trace_curved_rays<double>(view, plan_, films));
+  }
+}
+
+/// The rays of a batch for which bodies are met by curved rays.
+std::vector<int> Tracer::curved_rays(const TraceBatch& batch) const {
+  std::vector<int> rays;
+  if (plan_.tiles.curved.empty() || !sight().any_body()) return rays;
+  for (int i = 0; i < kBatchSize; ++i) {
+    if (curves_at(plan_, camera_, {batch.x[i], batch.y[i]})) rays.push_back(i);
+  }
+  return rays;
 }
 
 void Tracer::trace_singly(std::size_t recipe, int i, TraceBatch& batch) const {

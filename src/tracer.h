@@ -7,6 +7,7 @@
 
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "src/plan.h"
@@ -33,12 +34,12 @@ class Tracer {
   const std::vector<Surface>& surfaces() const { return surfaces_; }  // in camera axes
 
  private:
-  Sight sight(const Deflectors* finite = nullptr) const;
+  Sight sight(const Deflectors* finite = nullptr, bool bodies = true) const;
   void trace_by_planes(TraceBatch& batch) const;
-  void trace_by_recipe(std::size_t recipe, Reach reach, TraceBatch& batch) const;
+  void trace_by_recipe(std::size_t recipe, Reach reach, bool bodies, TraceBatch& batch) const;
   void trace_by_paper(TraceBatch& batch) const;
-  template <class Number>
-  void trace_curved(TraceBatch& batch) const;
+  std::vector<int> curved_rays(const TraceBatch& batch) const;
+  void trace_curved(std::span<const int> rays, bool bodies_only, TraceBatch& batch) const;
   void trace_singly(std::size_t recipe, int i, TraceBatch& batch) const;
 
   Camera camera_;

@@ -78,10 +78,9 @@ Json json_from_plan(const Shot& shot, const PlannedFrame& planned) {
                      {"motion_px", shutter.motion_px},
                      {"apart_px", shutter.apart_px()},
                      {"needed", shutter.needed}};
-  json["tiles"] = {{"size", plan.tiles.size},
-                   {"columns", plan.tiles.columns},
-                   {"rows", plan.tiles.rows},
-                   {"level", plan.tiles.level}};
+  json["tiles"] = {{"size", plan.tiles.size},     {"columns", plan.tiles.columns},
+                   {"rows", plan.tiles.rows},     {"level", plan.tiles.level},
+                   {"curved", plan.tiles.curved}, {"chords_px", plan.tiles.chords_px}};
   return json;
 }
 

@@ -73,6 +73,7 @@ std::string lens_table(const Shot& shot, const PlannedFrame& planned) {
 
 std::string state_of(const EffectPlan& effect) {
   if (effect.on) return "on";
+  if (effect.name == kCurvedEffect && effect.share > 0) return "near bodies";
   return effect.share > 0 ? "near masses" : "off";
 }
 

@@ -113,6 +113,13 @@ Json json_from_surface(const Shot& shot, const LayerSurface& of, const ProbedSur
           {"distance", surface.distance}};
 }
 
+/// "curved rays: chords would misplace them by up to 3.7 px".
+std::string body_meeting_text(const Probe& probe) {
+  const bool bounded = std::isfinite(probe.chords_px);
+  const std::string by = bounded ? "by up to " + in_pixels(probe.chords_px) : "without limit";
+  return probe.curved ? "curved rays: chords would misplace them " + by : "chords, which misplace them " + by;
+}
+
 }  // namespace
 
 std::string text_from_probe(const Shot& shot, const ProbedFrame& probed) {
@@ -126,6 +133,8 @@ std::string text_from_probe(const Shot& shot, const ProbedFrame& probed) {
   }
   if (probe.seen && probe.recipe < probed.plan.recipes.size())
     rows.push_back({"lenses by their laws", laws_of(probed.plan.recipes[probe.recipe])});
+  if (probe.seen && !probed.plan.tiles.chords_px.empty())
+    rows.push_back({"bodies are met by", body_meeting_text(probe)});
   text += text_from_rows(rows) + crossing_table(shot, probe);
   const std::vector<LayerSurface> surfaces = surfaces_of(shot);
   for (std::size_t i = 0; i < probe.surfaces.size(); ++i)
@@ -148,6 +157,8 @@ std::string json_from_probe(const Shot& shot, const ProbedFrame& probed) {
                {"last", json_from_vector(probe.last)},
                {"plan", describe(probed.plan)},
                {"recipe", probe.recipe},
+               {"curved", probe.curved},
+               {"chords_px", probe.chords_px},
                {"crossings", Json::array()},
                {"layers", Json::array()}};
   for (const ProbedCrossing& crossing : probe.crossings)

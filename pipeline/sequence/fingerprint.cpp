@@ -5,6 +5,8 @@
 #include <OpenImageIO/hash.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 
 #include "pipeline/image/failure.h"
@@ -55,6 +57,10 @@ void add_plan(Fingerprint& print, const Plan& plan) {
   const TileLevels& tiles = plan.tiles;
   print.add("tiles").add(tiles.size).add(tiles.columns).add(tiles.rows);
   print.add(std::string(tiles.level.begin(), tiles.level.end()));
+  if (std::none_of(tiles.curved.begin(), tiles.curved.end(), [](std::uint8_t c) { return c != 0; })) return;
+  print.add("curved").add(std::string(tiles.curved.begin(), tiles.curved.end()));
+  print.add(plan.geodesic_tolerance).add(static_cast<double>(plan.masses.size()));
+  for (const PointMass& mass : plan.masses) print.add(mass.m).add(mass.position);
 }
 
 }  // namespace

@@ -11,10 +11,13 @@
 namespace lensplane {
 namespace {
 
-/// Tracing the frame by `settings`, in seconds.
-double seconds_of(const Scene& scene, const TraceSettings& settings, const StudyEffort& effort) {
+/// Tracing the frame by `plan`, in seconds.
+double seconds_of(const Scene& scene, const Plan& plan, const StudyEffort& effort) {
   const FilmGrid grid = grid_of(scene.camera, rays_of(effort, scene.lenses.size()));
-  return time_trace(Tracer(scene, plan_trace(scene, settings)), grid, effort.repeats).median_s;
+  return time_trace(Tracer(scene, plan), grid, effort.repeats).median_s;
+}
+double seconds_of(const Scene& scene, const TraceSettings& settings, const StudyEffort& effort) {
+  return seconds_of(scene, plan_trace(scene, settings), effort);
 }
 
 TraceSettings with(TraceSettings settings, bool Effects::*effect) {
@@ -38,6 +41,18 @@ Price finite_distance(const Scene& scene, TraceSettings settings, const EffectPl
   price.base_s = seconds_of(scene, settings, effort);
   settings.finite_distance = Choice::On;
   price.seconds = (plan.on ? plain_s : seconds_of(scene, settings, effort)) - price.base_s;
+  return price;
+}
+
+/// Bodies met by curved rays where the plan says so, against chords everywhere.
+Price curved_rays(const Scene& scene, const TraceSettings& settings, const EffectPlan& effect, double plain_s,
+                  const StudyEffort& effort) {
+  Price price = price_of(effect);
+  price.on = effect.share > 0;
+  Plan chords = plan_trace(scene, settings);
+  chords.tiles.curved.clear();
+  price.base_s = seconds_of(scene, chords, effort);
+  price.seconds = plain_s - price.base_s;
   return price;
 }
 
@@ -84,6 +99,10 @@ void price_traces(const Shot& shot, int frame, const StudyEffort& effort, const 
     const auto entry = std::find_if(kEffectNames.begin(), kEffectNames.end(),
                                     [&](const EffectName& e) { return e.name == effect.name; });
     if (effect.name == kJointEffect) continue;  // it comes with the exact law
+    if (effect.name == kCurvedEffect) {
+      study.prices.push_back(curved_rays(scene, settings, effect, plain_s, effort));
+      continue;
+    }
     if (entry == kEffectNames.end()) {
       const bool can_be_off = scene.camera.projection == Projection::Perspective;
       if (can_be_off) study.prices.push_back(finite_distance(scene, settings, effect, plain_s, effort));

@@ -12,6 +12,7 @@
 #include "pipeline/study/worst_place.h"
 #include "src/lens_map.h"
 #include "src/schwarzschild_sky.h"
+#include "src/sight.h"
 
 namespace lensplane {
 namespace {
@@ -140,12 +141,28 @@ Yardstick make_yardstick(const Shot& shot, const Scene& scene, const FilmGrid& g
   return yardstick;
 }
 
+/// What a plan is held against: everything by planes, but for bodies that it meets by curved rays the
+/// reference.
+std::vector<TraceBatch> held_against(const Tracer& tracer, const Yardstick& yardstick) {
+  std::vector<TraceBatch> result;
+  for (std::size_t n = 0; n < yardstick.everything.size(); ++n) {
+    result.push_back(tracer.make_batch());
+    for (int i = 0; i < kBatchSize; ++i) {
+      const TraceBatch& planes = yardstick.everything[n];
+      copy_ray(planes, i, result.back(), i);
+      if (curves_at(tracer.plan(), tracer.camera(), {planes.x[i], planes.y[i]}))
+        copy_bodies(tracer.surfaces(), yardstick.curved[n], i, result.back(), i);
+    }
+  }
+  return result;
+}
+
 /// Holds what a row leaves out against what its plan says.
 void check_bound(const Tracer& tracer, const std::vector<TraceBatch>& seen, const Yardstick& yardstick,
                  TraceRow& row) {
   if (tracer.plan().method != Method::Planes) return;
   row.bound_px = tracer.plan().bound_px;
-  row.left_out = summary_of(errors_of(tracer, yardstick.grid, seen, yardstick.everything));
+  row.left_out = summary_of(errors_of(tracer, yardstick.grid, seen, held_against(tracer, yardstick)));
   row.violated = violates(*row.bound_px, row.left_out, yardstick.rounding_px);
 }
 
