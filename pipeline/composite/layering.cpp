@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "pipeline/composite/ring_shadow.h"
+#include "pipeline/composite/sun_disc.h"
 
 namespace lensplane {
 namespace {
@@ -32,7 +33,7 @@ void lay_under(Rgba& over, const Rgba& under) {
 Rgba lit_sphere(const SurfaceLook& look, TextureCoordinates st, const Footprint& footprint) {
   const double cosine = sphere_normal_from_st(st).dot(*look.light);
   Rgba colour = look.texture->filtered(st, footprint);
-  scale_colour(std::max(0.0, cosine), colour);
+  scale_colour(lambert_share(look.sun, cosine), colour);
   const double darkness = look.night ? smooth_step(kTwilight, -kTwilight, cosine) : 0.0;
   if (darkness == 0.0) return colour;
   const Rgba night = look.night->filtered(st, footprint);
@@ -46,7 +47,7 @@ Rgba shade_plainly(const Surface& surface, const SurfaceLook& look, TextureCoord
   if (look.light && std::holds_alternative<Sphere>(surface)) return lit_sphere(look, st, footprint);
   Rgba colour = look.texture->filtered(st, footprint);
   if (const auto* ring = std::get_if<Ring>(&surface); ring && look.light && look.caster) {
-    scale_colour(light_share(*ring, *look.caster, *look.light, st, footprint), colour);
+    scale_colour(light_share(*ring, *look.caster, *look.light, look.sun, st, footprint), colour);
   }
   return colour;
 }

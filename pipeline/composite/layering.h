@@ -43,6 +43,7 @@ struct SurfaceLook {
   std::shared_ptr<const Texture> night = {};  // spheres: what shines where the light does not reach
   std::optional<ShadowCaster> caster = {};    // rings
   float gain = 1;                             // that its light is multiplied by
+  double sun = 0;                             // angular radius of the light's disc, radians; 0: a point
 };
 
 /// The colour of a surface at (s, t), under a footprint.

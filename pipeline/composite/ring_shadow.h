@@ -2,9 +2,10 @@
 //
 // How much light a ball leaves to a ring behind it.
 //
-// The light comes from one direction, so the shadow is a cylinder. Its edge is as wide as what is seen at
-// once: the share of the pixel filter outside of it, across the shadow at the middle of the filter, whose
-// edge is straight there but for its curve within a pixel.
+// Light from a point comes from one direction, and its shadow is a cylinder. Its edge is as wide as what is
+// seen at once: the share of the pixel filter outside of it, across the shadow at the middle of the filter,
+// whose edge is straight there but for its curve within a pixel. Light from a disc leaves a penumbra, which
+// is looked at in sixteen places across it.
 
 #pragma once
 
@@ -12,9 +13,9 @@
 
 namespace lensplane {
 
-/// From 0 to 1 at a point of the ring, under a footprint; without width 0 or 1. `light` and `caster` in the
-/// ring's own axes.
-double light_share(const Ring& ring, const ShadowCaster& caster, const Vec3& light, TextureCoordinates st,
-                   const Footprint& footprint);
+/// From 0 to 1 at a point of the ring, under a footprint; `sun`: the angular radius of the light's disc,
+/// radians, or 0 for a point. `light` and `caster` in the ring's own axes.
+double light_share(const Ring& ring, const ShadowCaster& caster, const Vec3& light, double sun,
+                   TextureCoordinates st, const Footprint& footprint);
 
 }  // namespace lensplane

@@ -17,11 +17,13 @@ std::vector<SurfaceLook> looks_at(const Shot& shot, const Scene& scene, TextureS
     SurfaceLook look{textures.texture(layer, frame)};
     if (const auto light = light_at(shot.layers[layer], time)) {
       look.light = std::get<Sphere>(scene.surfaces[k]).axes.local_from_parent(*light);
+      look.sun = sun_at(shot.layers[layer], time);
       look.night = textures.night(layer, frame);
     }
     if (const auto shadow = shadow_at(shot, layer, time)) {
       const auto& ring = std::get<Ring>(scene.surfaces[k]);
       look.light = ring.axes.local_from_parent(shadow->light);
+      look.sun = shadow->sun;
       look.caster = ShadowCaster{ring.axes.local_from_parent(shadow->sphere.centre - ring.centre),
                                  shadow->sphere.radius};
     }

@@ -56,7 +56,9 @@ void add_moment(const Shot& shot, const Moment& moment, Fingerprint& print) {
     const double exposure = value_at(shot.layers[k].exposure, time);
     if (exposure != 0) print.add("exposure").add(static_cast<double>(k)).add(exposure);
     if (const auto light = light_at(shot.layers[k], time)) print.add("light").add(*light);
+    if (const double sun = sun_at(shot.layers[k], time); sun > 0) print.add("sun").add(sun);
     if (const auto shadow = shadow_at(shot, k, time)) {
+      if (shadow->sun > 0) print.add("penumbra").add(shadow->sun);
       print.add("shadow").add(shadow->light).add(shadow->sphere.centre).add(shadow->sphere.radius);
     }
     if (const auto* stars = std::get_if<StarsLayer>(&shot.layers[k].kind)) {

@@ -10,6 +10,7 @@
 
 #include "pipeline/image/frame_path.h"
 #include "pipeline/shot/povray_reader.h"
+#include "src/constants.h"
 
 namespace lensplane {
 namespace {
@@ -53,13 +54,33 @@ std::optional<Keyed<double>> read_distance(const Value& layer) {
   return read_keyed_positive(*distance, Dimension::Length);
 }
 
+/// The largest light, in radians: half of it has to stay well below a right angle.
+constexpr double kLargestLight = kPi / 3;
+
+/// A direction, or one with the diameter of a disc. Keys are of the direction alone.
+void read_light(const Value& value, std::optional<Keyed<Direction>>& direction, Keyed<double>& diameter) {
+  if (!value.is_map() || value.find("keys")) {
+    direction = read_keyed_direction(value);
+    return;
+  }
+  value.only_keys({"direction", "diameter"});
+  direction = read_keyed_direction(value.require("direction", "[x, y, z], towards the light"));
+  const auto given = value.find("diameter");
+  if (!given) return;
+  diameter = read_keyed(*given, [](const Value& v) {
+    const double angle = v.positive(Dimension::Angle);
+    if (angle > kLargestLight) v.refuse(in_quotes(v.text()) + " is too large; allowed: up to 60 deg");
+    return angle;
+  });
+}
+
 SphereLayer read_sphere(const Value& layer) {
   SphereLayer sphere;
   sphere.centre = read_keyed_vector(layer.require("centre", "[x, y, z], lengths"), Dimension::Length);
   sphere.radius = read_keyed_positive(layer.require("radius", "a length, like 6371 km"), Dimension::Length);
   if (const auto rotation = layer.find("rotation"))
     sphere.rotation = read_keyed_vector(*rotation, Dimension::Angle);
-  if (const auto light = layer.find("light")) sphere.light = read_keyed_direction(*light);
+  if (const auto light = layer.find("light")) read_light(*light, sphere.light, sphere.light_diameter);
   if (const auto night = layer.find("night")) {
     if (!sphere.light) night->refuse("without light there is no night; needed: light, a direction");
     sphere.night = read_image(*night);
@@ -105,7 +126,7 @@ RingLayer read_ring(const Value& layer, const ShotNames& names) {
     ring.shadow_of = read_layer_name(*shadow, names, "the name of a sphere");
   if (const auto light = layer.find("light")) {
     if (!ring.shadow_of) light->refuse("has a meaning only together with shadow_of");
-    ring.light = read_keyed_direction(*light);
+    read_light(*light, ring.light, ring.light_diameter);
   }
   return ring;
 }

@@ -126,16 +126,18 @@ struct LatLongLayer {};
 struct SphereLayer {
   Keyed<Vec3> centre;
   Keyed<double> radius;
-  Keyed<Vec3> rotation;                   // as Rotation
-  std::optional<Keyed<Direction>> light;  // towards the light
-  std::optional<LayerImage> night;        // seen where the light does not come; only with light
+  Keyed<Vec3> rotation;                                       // as Rotation
+  std::optional<Keyed<Direction>> light;                      // towards the light
+  Keyed<double> light_diameter = Keyed<double>::constant(0);  // radians; 0: a point
+  std::optional<LayerImage> night;  // seen where the light does not come; only with light
 };
 struct RingLayer {
   std::variant<Keyed<Vec3>, LayerIndex> centre;  // or that of a sphere
   Keyed<Direction> normal;
-  Keyed<double> inner, outer;             // metres
-  std::optional<LayerIndex> shadow_of;    // the sphere whose shadow falls on it
-  std::optional<Keyed<Direction>> light;  // of that shadow; nothing: the sphere's
+  Keyed<double> inner, outer;                                 // metres
+  std::optional<LayerIndex> shadow_of;                        // the sphere whose shadow falls on it
+  std::optional<Keyed<Direction>> light;                      // of that shadow; nothing: the sphere's
+  Keyed<double> light_diameter = Keyed<double>::constant(0);  // of that, radians; 0: a point
 };
 struct StarsLayer {
   LocatedText catalogue;   // a path

@@ -151,12 +151,18 @@ std::optional<Vec3> light_at(const Layer& layer, double frame) {
   return value_at(*sphere->light, frame);
 }
 
+double sun_at(const Layer& layer, double frame) {
+  const auto* sphere = std::get_if<SphereLayer>(&layer.kind);
+  return sphere ? value_at(sphere->light_diameter, frame) / 2 : 0.0;
+}
+
 std::optional<RingShadow> shadow_at(const Shot& shot, std::size_t layer, double frame) {
   const auto* ring = std::get_if<RingLayer>(&shot.layers[layer].kind);
   if (!ring || !ring->shadow_of) return std::nullopt;
   const auto& sphere = std::get<SphereLayer>(shot.layers[ring->shadow_of->index].kind);
   const Keyed<Direction>& light = ring->light ? *ring->light : *sphere.light;
-  return RingShadow{sphere_at(sphere, frame), value_at(light, frame)};
+  const Keyed<double>& diameter = ring->light ? ring->light_diameter : sphere.light_diameter;
+  return RingShadow{sphere_at(sphere, frame), value_at(light, frame), value_at(diameter, frame) / 2};
 }
 
 Shot proxy_of(Shot shot, int divisor) {

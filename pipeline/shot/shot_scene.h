@@ -41,10 +41,14 @@ TraceSettings trace_at(const Shot& shot, double frame);
 /// A sphere's direction towards the light in the world; nothing for other layers and spheres without.
 std::optional<Vec3> light_at(const Layer& layer, double frame);
 
+/// The angular radius of a sphere's light, radians; 0 for a point, for other layers and spheres without.
+double sun_at(const Layer& layer, double frame);
+
 /// The shadow on a ring: its points from which the light is behind the sphere.
 struct RingShadow {
-  Sphere sphere;  // in the world
-  Vec3 light;     // unit vector towards the light, in the world
+  Sphere sphere;   // in the world
+  Vec3 light;      // unit vector towards the light, in the world
+  double sun = 0;  // angular radius of the light, radians
 };
 
 /// The shadow that falls on a layer (an index into Shot::layers) at a frame; nothing where none does.

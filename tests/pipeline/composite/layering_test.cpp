@@ -145,6 +145,35 @@ TEST(Layering, ShadowsEdgeHasThePixelFiltersShareWhateverWayTheFootprintLies) {
   }
 }
 
+TEST(Layering, ADiscOfLightLeavesAPenumbraOnRings) {
+  constexpr double kSun = 0.05;
+  SurfaceLook look{flat({1, 1, 1, 1}), Vec3(1, 0, 0), {}, ShadowCaster{{0, 0, 0}, 5}};
+  look.sun = kSun;
+  // At x = -20 half of the disc is free 5 m and a little beside the axis; the penumbra is 1 m on either side.
+  EXPECT_EQ(shade(kRing, look, on_ring(-20, 3.5), {})[0], 0);
+  EXPECT_NEAR(shade(kRing, look, on_ring(-20, 5.16), {})[0], 0.5, 0.03);
+  EXPECT_EQ(shade(kRing, look, on_ring(-20, 6.5), {})[0], 1);
+  for (const double width : {0.002, 0.02}) {
+    const Footprint across{.ds_dx = 1e-4, .dt_dy = width};
+    for (const double aside : {4.2, 4.9, 5.3, 6.0}) {
+      const double truth = light_by_points(look, on_ring(-20, aside), across);
+      EXPECT_NEAR(shade(kRing, look, on_ring(-20, aside), across)[0], truth, kShadowError) << aside;
+    }
+  }
+  // A ball smaller than the disc has no umbra.
+  look.caster->radius = 0.5;
+  EXPECT_NEAR(shade(kRing, look, on_ring(-20, 0), {})[0], 0.75, 0.01);
+}
+
+TEST(Layering, ADiscOfLightReachesOverTheTerminator) {
+  SurfaceLook look{flat({1, 1, 1, 1}), Vec3(0, 0, 1)};
+  look.sun = 0.1;
+  EXPECT_NEAR(shade(Sphere{}, look, on_equator(0), {})[0], 0.2 / (3 * kPi), 1e-4);  // 2 a/(3 pi)
+  EXPECT_GT(shade(Sphere{}, look, on_equator(-0.05), {})[0], 0);
+  EXPECT_EQ(shade(Sphere{}, look, on_equator(-0.11), {})[0], 0);
+  EXPECT_NEAR(shade(Sphere{}, look, on_equator(0.5), {})[0], 0.5 * (1 + std::cos(0.1)) / 2, 1e-6);
+}
+
 TEST(Layering, AShadowThinnerThanAPixelTakesItsShareOfLight) {
   const SurfaceLook look{flat({1, 1, 1, 1}), Vec3(1, 0, 0), {}, ShadowCaster{{0, 0, 0}, 0.05}};
   const Footprint across{.dt_dx = 0.004};  // 0.23 m standard deviation

@@ -45,6 +45,7 @@ TEST(LayerReader, ReadsRings) {
   const auto& other = std::get<RingLayer>(lit.layers[1].kind);
   EXPECT_EQ(value_at(std::get<Keyed<Vec3>>(other.centre), 0), Vec3(1, 2, 3));
   EXPECT_EQ(value_at(*other.light, 0), Vec3(1, 0, 0));
+  EXPECT_EQ(value_at(other.light_diameter, 0), 0);
 }
 
 TEST(LayerReader, ReadsPlatesAtADistance) {
@@ -105,6 +106,10 @@ TEST(LayerReader, RefusesEveryMistake) {
       {{stars("catalogue: c.csv, exposure: bright")}, "not a number"},
       {{stars("catalogue: c.csv, image: c.png")}, "layers.s.image: unknown key"},
       {{stars("catalogue: c.csv"), "camera.look_at=s"}, "has no centre to look at"},
+      {{"layers.earth.light={direction: [1, 0, 0], diameter: 0 deg}"}, "layers.earth.light.diameter"},
+      {{"layers.earth.light={direction: [1, 0, 0], diameter: 61 deg}"}, "allowed: up to 60 deg"},
+      {{"layers.earth.light={diameter: 1 deg}"}, "layers.earth.light.direction: missing"},
+      {{"layers.earth.light={direction: [1, 0, 0], size: 1 deg}"}, "size"},
       {{"layers.earth.light=[1, 0, 0]", "layers.earth.night={space: Raw}"},
        "layers.earth.night.file: missing"},
       {{"layers.background.distance=0 m"}, "not greater than 0"},

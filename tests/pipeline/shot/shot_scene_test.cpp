@@ -98,6 +98,15 @@ TEST(ShotScene, ShadowsFallFromTheirSphereAwayFromTheLight) {
   EXPECT_EQ(shadow->sphere.radius, 6.371e6);
   EXPECT_EQ(shadow_at(with_ring({"layers.ring.light=[0, 5, 0]"}), 1, 1001)->light, Vec3(0, 1, 0));
   EXPECT_FALSE(shadow_at(with_ring({"layers.ring.shadow_of=null"}), 1, 1001));
+  // A disc of light, keyed, of the sphere or the ring itself.
+  const Shot disc =
+      with_ring({"layers.earth.light={direction: [1, 0, 0], diameter: {keys: {1001: 1 deg, 1003: 3 deg}}}"});
+  EXPECT_NEAR(sun_at(disc.layers[0], 1002), kDegree, 1e-15);
+  EXPECT_NEAR(shadow_at(disc, 1, 1001)->sun, kDegree / 2, 1e-15);
+  EXPECT_EQ(sun_at(with_ring().layers[0], 1001), 0);
+  const Shot own = with_ring({"layers.ring.light={direction: {keys: {1001: [0, 1, 0]}}, diameter: 2 deg}"});
+  EXPECT_NEAR(shadow_at(own, 1, 1001)->sun, kDegree, 1e-15);
+  EXPECT_EQ(shadow_at(own, 1, 1001)->light, Vec3(0, 1, 0));
   EXPECT_FALSE(shadow_at(with_ring(), 0, 1001));
 }
 
