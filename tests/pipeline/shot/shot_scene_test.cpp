@@ -12,6 +12,8 @@
 namespace lensplane {
 namespace {
 
+constexpr double kDegree = kPi / 180.0;
+
 TEST(ShotScene, IsTheShotAtItsFrame) {
   const Shot shot = example_shot(
       {"lenses.near.position={keys: {1001: [0 m, 0 m, -1 m], 1003: [2 m, 0 m, -1 m]}}", "camera.overscan=4"});
