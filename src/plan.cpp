@@ -145,9 +145,9 @@ EffectPlan joint_plan(const TraceSettings& settings, std::size_t masses, const F
 }
 
 /// Which tiles meet bodies by curved rays: where chords would misplace them by more than `budget_px`. What
-/// that is, and what is left out elsewhere.
-EffectPlan choose_curves(const Camera& camera, double budget_px, const FilmBounds& bounds,
-                         TileLevels& tiles) {
+/// that is, and what is left out.
+EffectPlan choose_curves(const Camera& camera, double budget_px, double tolerance_px,
+                         const FilmBounds& bounds, TileLevels& tiles) {
   double there = 0.0, elsewhere = 0.0;
   for (const TileBound& tile : bounds.tiles) {
     const bool curved = tile.chords_px > budget_px;
@@ -157,8 +157,10 @@ EffectPlan choose_curves(const Camera& camera, double budget_px, const FilmBound
     most = std::max(most, tile.chords_px);
   }
   const double share = shares_of(tiles, camera, tiles.curved, 2)[1];
-  return {std::string(kCurvedEffect), share == 1.0, elsewhere, reason_of_curves(share, there, elsewhere),
-          share};
+  const std::string reason = reason_of_curves(share, there, elsewhere);
+  // Curved rays are themselves followed to a share of the tolerance.
+  const double left_out = share > 0.0 ? std::max(elsewhere, kGeodesicShare * tolerance_px) : elsewhere;
+  return {std::string(kCurvedEffect), share == 1.0, left_out, reason, share};
 }
 
 /// What chords misplace where curved rays are not taken, for the reason `why`.
@@ -197,9 +199,10 @@ void plan_curves(const Scene& scene, const TraceSettings& settings, const Effect
   plan.masses = masses_of(scene, [&](std::size_t lens) { return !plan.lenses[lens].culled; });
   const bool many = plan.masses.size() > kMostCurvedMasses;
   const double budget = kShare * settings.tolerance_px - (finite.on ? 0.0 : finite.bound_px);
-  const EffectPlan curves = told   ? stay_with_chords("not with a given law or distance", bounds, tiles)
-                            : many ? stay_with_chords("too many masses", bounds, tiles)
-                                   : choose_curves(scene.camera, budget, bounds, tiles);
+  const EffectPlan curves = told ? stay_with_chords("not with a given law or distance", bounds, tiles)
+                            : many
+                                ? stay_with_chords("too many masses", bounds, tiles)
+                                : choose_curves(scene.camera, budget, settings.tolerance_px, bounds, tiles);
   if (!(curves.share > 0.0)) plan.masses.clear();
   plan.choices.insert(plan.choices.begin() + 2, curves);
   plan.bound_px += curves.bound_px;
