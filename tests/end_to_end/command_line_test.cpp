@@ -127,10 +127,11 @@ TEST(CommandLine, RenderWritesMapsPictureAndReview) {
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, StartsWith("1001: "));
   EXPECT_THAT(result.out, HasSubstr("A(earth) = "));
-  EXPECT_EQ(names_of(folder / "out"),
-            (std::vector<std::string>{"small.1001.exr", "small.1002.exr", "small.earth.map.1001.exr",
-                                      "small.earth.map.1002.exr", "small.review.1001.png",
-                                      "small.review.1002.png"}));
+  EXPECT_EQ(
+      names_of(folder / "out"),
+      (std::vector<std::string>{"small.1001.exr", "small.1002.exr", "small.earth.map.1001.exr",
+                                "small.earth.map.1002.exr", "small.review.1001.png", "small.review.1002.png",
+                                "small.shadow.1001.exr", "small.shadow.1002.exr"}));
   const auto stats = nlohmann::json::parse(contents_of(folder / "stats.json"));
   EXPECT_EQ(stats["frames"].size(), 2U);
   EXPECT_GT(stats["frames"][0]["amplification"]["earth"].get<double>(), 1.0);
@@ -168,7 +169,8 @@ TEST(CommandLine, MapWritesOnlyMaps) {
   const TemporaryFolder folder;
   const auto shot = folder.write("small.yaml", kSmallShot).string();
   ASSERT_EQ(lensplane({"map", shot, "-f", "1002", "--quiet"}).exit_code, 0);
-  EXPECT_EQ(names_of(folder / "out"), std::vector<std::string>{"small.earth.map.1002.exr"});
+  EXPECT_EQ(names_of(folder / "out"),
+            (std::vector<std::string>{"small.earth.map.1002.exr", "small.shadow.1002.exr"}));
 }
 
 TEST(CommandLine, SecondRunSkipsWhatIsDoneAndRedoesWhatIsNot) {
