@@ -104,7 +104,6 @@ Picture by_comp(const Tracer& tracer, const std::vector<LensMap>& maps, const st
 Picture by_warp(const std::vector<LensMap>& maps, const std::vector<Seen>& surfaces) {
   return layered(maps, surfaces, [](const LensMap& map, const Seen& seen) {
     std::vector<MapLayer> layers = {map_layer(map, seen)};
-    for (Footprint& footprint : layers[0].footprints) footprint.spared = 1.02 * kPixelSigma * kPixelSigma;
     layers[0].distance = std::numeric_limits<double>::infinity();
     return composite_from_maps(layers);
   });
