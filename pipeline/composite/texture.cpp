@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace lensplane {
 namespace {
@@ -31,7 +32,12 @@ std::array<float, 4> cubic_weights(float share) {
   return {-t * u * u / 2, (2 - t * t * (5 - 3 * t)) / 2, (2 - u * u * (5 - 3 * u)) / 2, -u * t * t / 2};
 }
 
-Rgba on_surface(Texels& texels, TextureCoordinates st) {
+/// A colour of the surface, and the range of the four texels around it.
+struct SurfaceColour {
+  Rgba colour, least, most;
+};
+
+SurfaceColour on_surface(Texels& texels, TextureCoordinates st) {
   const PixelWindows& window = texels.levels().front().window;
   const double x = st.s * window.display_width - 0.5;
   const double y = (1.0 - st.t) * window.display_height - 0.5;
@@ -39,29 +45,38 @@ Rgba on_surface(Texels& texels, TextureCoordinates st) {
   const int row = clamped_floor(y);
   const auto across = cubic_weights(static_cast<float>(std::clamp(x - column, 0.0, 1.0)));
   const auto down = cubic_weights(static_cast<float>(std::clamp(y - row, 0.0, 1.0)));
-  Rgba colour{0, 0, 0, 0};
+  constexpr float kMost = std::numeric_limits<float>::max();
+  Rgba colour{0, 0, 0, 0}, least{kMost, kMost, kMost, kMost}, most{-kMost, -kMost, -kMost, -kMost};
   for (int j = 0; j < 4; ++j) {
     const Rgba* texel = texels.row(0, column - 1, row - 1 + j, 4);
+    for (std::size_t k = 0; (j == 1 || j == 2) && k < 4; ++k) {
+      least[k] = std::min({least[k], texel[1][k], texel[2][k]});
+      most[k] = std::max({most[k], texel[1][k], texel[2][k]});
+    }
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t k = 0; k < 4; ++k) {
         colour[k] += down[static_cast<std::size_t>(j)] * across[i] * texel[i][k];
       }
     }
   }
-  return colour;
+  return {colour, least, most};
 }
 
 }  // namespace
 
 Rgba Texture::lookup(TextureCoordinates st) const {
-  return with_reader(source_, wrap_, [&](auto& texels) { return on_surface(texels, st); });
+  return with_reader(source_, wrap_, [&](auto& texels) { return on_surface(texels, st).colour; });
 }
 
 Rgba Texture::filtered(TextureCoordinates st, const Footprint& footprint) const {
   if (footprint.scale == 0 && std::isfinite(st.s) && std::isfinite(st.t) && is_finite(footprint)) {
     const int width = windows().display_width, height = windows().display_height;
     const TexelFilter filter = texel_filter(footprint, width, height);
-    return lookup({st.s + filter.dx / width, st.t - filter.dy / height});
+    st = {st.s + filter.dx / width, st.t - filter.dy / height};
+    auto [colour, least, most] =
+        with_reader(source_, wrap_, [&](auto& texels) { return on_surface(texels, st); });
+    for (std::size_t k = 0; k < 4; ++k) colour[k] = std::clamp(colour[k], least[k], most[k]);
+    return colour;
   }
   return with_reader(source_, wrap_, [&](auto& texels) { return filtered_texels(texels, st, footprint); });
 }

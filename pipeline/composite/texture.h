@@ -25,14 +25,13 @@ class Texture {
   Texture(TiledTexture tiled, Wrap wrap) : source_(std::move(tiled)), wrap_(wrap) {}
 
   /// The colour of the surface between the finest texels at (s, t), which must be finite: Catmull-Rom's cubic
-  /// as it is, which may ring. What pixels are the mean of; for a picture, see filtered().
+  /// as it is, which may ring; for a picture, see filtered().
   Rgba lookup(TextureCoordinates st) const;
 
   /// The colour that a pixel of the film sees whose centre sees (s, t): filtered by its footprint, and held
   /// to the range of the texels around. A footprint of scale 0 is a ray that pixels are made of: lookup() at
-  /// its place. Never a
-  /// NaN nor an infinity, whatever is asked for. Tiled textures throw Failure (BadInput) when their file
-  /// breaks.
+  /// its place, held to that range. Never a NaN nor an infinity, whatever is asked for. Tiled textures throw
+  /// Failure (BadInput) when their file breaks.
   Rgba filtered(TextureCoordinates st, const Footprint& footprint) const;
 
   /// Texels that were no numbers; of a tiled texture among those that have been read.

@@ -74,6 +74,13 @@ TEST(CompositorLight, AConstantPlateStaysConstantUnderStrongLensing) {
   }
 }
 
+constexpr int kFrame = 120, kTexels = 8;  // to the pixel
+
+/// How much of a texel a disc covers whose edge is `inside` pixels away.
+double cover_at(double inside) {
+  return std::clamp(inside * kTexels + 0.5, 0.0, 1.0);
+}
+
 /// What pixels have of the light at a film coordinate, counted from an edge between them: the sum of the
 /// pixel filter over all of them, by Poisson's formula.
 double weights_at(double x) {
@@ -87,22 +94,19 @@ double light_on_film(double x, double y, double radius, double einstein) {
   for (double down = -kReach + kStep / 2; down < kReach; down += kStep) {
     for (double right = -kReach + kStep / 2; right < kReach; right += kStep) {
       const double bent = 1 - einstein * einstein / (right * right + down * down);
-      if (std::hypot(right * bent - x, down * bent - y) < radius)
-        light += weights_at(right) * weights_at(down);
+      const double inside = radius - std::hypot(right * bent - x, down * bent - y);
+      light += cover_at(inside) * weights_at(right) * weights_at(down);
     }
   }
   return 5 * light * kStep * kStep;
 }
-
-constexpr int kFrame = 120, kTexels = 8;  // to the pixel
 
 /// A black plate with a disc of light 5 at (x, y) pixels from the axis.
 Picture disc_plate(double x, double y, double radius) {
   return painted(kFrame * kTexels, kFrame * kTexels, [=](int column, int row) {
     const double right = (column + 0.5) / kTexels - kFrame / 2.0 - x;
     const double down = (row + 0.5) / kTexels - kFrame / 2.0 - y;
-    const double cover = std::clamp((radius - std::hypot(right, down)) * kTexels + 0.5, 0.0, 1.0);
-    const auto light = static_cast<float>(5 * cover);
+    const auto light = static_cast<float>(5 * cover_at(radius - std::hypot(right, down)));
     return Rgba{light, light, light, 1};
   });
 }
