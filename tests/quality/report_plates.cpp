@@ -12,6 +12,8 @@
 namespace lensplane {
 namespace {
 
+constexpr int kRays = 12;  // per pixel and axis of the truth: frames are large
+
 using Pictures = std::vector<const Picture*>;
 
 /// The best of the pictures by the truth that favours it.
@@ -25,7 +27,7 @@ double best(const Pictures& pictures, const Truth& truth, const std::vector<bool
 }
 
 void report_stills(const std::string& name, const Picture& plate) {
-  const Frame frame = make_frame(scene_behind_three_masses(), {seen(plate, Wrap::Black)});
+  const Frame frame = make_frame(scene_behind_three_masses(), {seen(plate, Wrap::Black)}, kRays);
   const std::vector<bool> arcs = magnified(frame.maps[0], 2);
   const Picture& truth = frame.truth.by_pixel_filter;
   const Pictures oiio = {&frame.st_warp[0], &frame.st_warp[1]};
@@ -62,9 +64,9 @@ void report_flicker(const std::string& name, const Picture& plate, int frames) {
   const std::vector<Seen> surfaces = {seen(plate, Wrap::Black)};
   Flicker ours;
   Flickers oiio(2), area(1), supersampled(1);
-  Frame before = make_frame(scene_behind_three_masses(0), surfaces);
+  Frame before = make_frame(scene_behind_three_masses(0), surfaces, kRays);
   for (int i = 1; i < frames; ++i) {
-    Frame after = make_frame(scene_behind_three_masses(0.1 * i), surfaces);
+    Frame after = make_frame(scene_behind_three_masses(0.1 * i), surfaces, kRays);
     const Truth &a = before.truth, &b = after.truth;
     ours.add(before.render, after.render, a.by_pixel_filter, b.by_pixel_filter);
     oiio.add({&before.st_warp[0], &before.st_warp[1]}, {&after.st_warp[0], &after.st_warp[1]}, a, b);

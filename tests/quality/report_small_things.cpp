@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kDepth = 1000;
 constexpr double kRing = 10;   // outer radius of rings, pixels
-constexpr int kFineRays = 48;  // per pixel and axis of the truth of the photon ring
+constexpr int kFineRays = 32;  // per pixel and axis of the truth of the photon ring
 
 /// Smallest and largest of some numbers.
 struct Range {
@@ -169,7 +169,7 @@ void report_photon_ring() {
   const std::vector<Seen>& plate = white();
   Range light, of_comp, worst, worst_comp;
   double steady = 0, steady_comp = 0, last = 0, last_comp = 0;
-  for (int step = 0; step < 6; ++step) {
+  for (int step = 0; step < 4; ++step) {
     Scene scene = empty_scene(96, 54, 40);
     const double pixel = slope_per_pixel(scene.camera) * 10;
     scene.lenses = {{0.2, {0.1 * pixel * step, 0.03 * pixel * step, -10}}};

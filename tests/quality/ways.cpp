@@ -109,12 +109,12 @@ Picture by_warp(const std::vector<LensMap>& maps, const std::vector<Seen>& surfa
   });
 }
 
-Frame make_frame(const Scene& scene, const std::vector<Seen>& surfaces) {
+Frame make_frame(const Scene& scene, const std::vector<Seen>& surfaces, int rays) {
   const Tracer tracer = tracer_of(scene);
   const std::vector<SurfaceLook> looks = looks_of(surfaces);
   Frame frame;
   frame.maps = maps_of(tracer);
-  frame.truth = true_picture(tracer, looks);
+  frame.truth = true_picture(tracer, looks, rays);
   frame.render = composite(tracer, looks, {}).picture;
   frame.comp = by_comp(tracer, frame.maps, surfaces);
   frame.warp = by_warp(frame.maps, surfaces);

@@ -45,6 +45,7 @@ struct Frame {
   Picture area, supersampled;
 };
 
-Frame make_frame(const Scene& scene, const std::vector<Seen>& surfaces);
+/// `rays`: of the truth, per pixel and axis.
+Frame make_frame(const Scene& scene, const std::vector<Seen>& surfaces, int rays = kTruthRays);
 
 }  // namespace lensplane
