@@ -52,10 +52,15 @@ Axes axes_of(const Covariance& covariance) {
   return axes;
 }
 
+double own_variance(double variance) {
+  constexpr double kOneToOne = kPixelSigma * kPixelSigma, kTwoToOne = 4 * kOneToOne;
+  return kOwnVariance * std::clamp((kTwoToOne - variance) / (kTwoToOne - kOneToOne), 0.0, 1.0);
+}
+
 TexelFilter texel_filter(const Footprint& footprint, int width, int height) {
   const Covariance whole = covariance_in_texels(footprint, width, height);
   const auto [major, minor] = variances_of(whole);
-  const auto left_of = [](double variance) { return std::max(0.0, variance - kOwnVariance); };
+  const auto left_of = [](double variance) { return std::max(0.0, variance - own_variance(variance)); };
   // Functions of a matrix: f(minor) and what f grows by to f(major), along the longer axis.
   const double apart = major - minor;
   const Covariance longer =

@@ -75,6 +75,11 @@ TexelFilter texel_filter(const Footprint& footprint, int width, int height);
 /// rounding of a map does not blur.
 inline constexpr double kOwnVariance = 1.02 * kPixelSigma * kPixelSigma;
 
+/// What of it is taken off an axis along which the pixel filter has this variance in texels: all where the
+/// picture has as many pixels as the film, less where it is finer, and nothing from twice as many on, where
+/// the film's filter alone says what a pixel sees.
+double own_variance(double variance);
+
 /// The same with both variances at least `least` > 0, whatever they were: what is left of an ellipse when
 /// another's variance has been taken off may be less than nothing along an axis.
 Covariance widened(const Covariance& covariance, double least);

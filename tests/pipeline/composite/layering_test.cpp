@@ -149,9 +149,10 @@ TEST(Layering, ADiscOfLightLeavesAPenumbraOnRings) {
   constexpr double kSun = 0.05;
   SurfaceLook look{flat({1, 1, 1, 1}), Vec3(1, 0, 0), {}, ShadowCaster{{0, 0, 0}, 5}};
   look.sun = kSun;
-  // At x = -20 half of the disc is free 5 m and a little beside the axis; the penumbra is 1 m on either side.
+  // At x = -20 the disc's middle is on the ball's limb 5 m beside the axis, where the limb, which is round,
+  // leaves 0.5216 of it free: the area of two circles. The penumbra is 1 m on either side.
   EXPECT_EQ(shade(kRing, look, on_ring(-20, 3.5), {})[0], 0);
-  EXPECT_NEAR(shade(kRing, look, on_ring(-20, 5.16), {})[0], 0.5, 0.03);
+  EXPECT_NEAR(shade(kRing, look, on_ring(-20, 5), {})[0], 0.5216, 0.005);
   EXPECT_EQ(shade(kRing, look, on_ring(-20, 6.5), {})[0], 1);
   for (const double width : {0.002, 0.02}) {
     const Footprint across{.ds_dx = 1e-4, .dt_dy = width};

@@ -44,7 +44,8 @@ inline Rgba reference_filtered(const Texture& texture, TextureCoordinates st, co
   const double c = std::cos(turn), s = std::sin(turn);
   constexpr double kReach = 4.5, kTexelsApart = 0.3;
   const auto left = [&](double texels_per_pixel) {  // of the standard deviation, as a share
-    const double own = kOwnVariance / std::pow(kPixelSigma * texels_per_pixel, 2);
+    const double variance = std::pow(kPixelSigma * texels_per_pixel, 2),
+                 own = own_variance(variance) / variance;
     return own < 1 ? std::sqrt(1 - own) : 0.0;
   };
   const double length_along = std::hypot(xx * c + xy * s, yx * c + yy * s);
