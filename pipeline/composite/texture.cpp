@@ -26,6 +26,10 @@ auto with_reader(const std::variant<Pyramid, TiledTexture>& source, Wrap wrap, a
   return use(texels);
 }
 
+/// Variance, in texels, of filters narrower than which colours are held to the four texels around; see
+/// local_range.h.
+constexpr double kNarrow = 0.15;
+
 /// What the four texels around a place weigh that lies `share` of the way from the second to the third.
 std::array<float, 4> cubic_weights(float share) {
   const float t = share, u = 1 - share;
@@ -71,11 +75,14 @@ Rgba Texture::lookup(TextureCoordinates st) const {
 Rgba Texture::filtered(TextureCoordinates st, const Footprint& footprint) const {
   if (footprint.scale == 0 && std::isfinite(st.s) && std::isfinite(st.t) && is_finite(footprint)) {
     const int width = windows().display_width, height = windows().display_height;
-    const TexelFilter filter = texel_filter(footprint, width, height);
+    Footprint whole = footprint;
+    whole.scale = 1;
+    const TexelFilter filter = texel_filter(whole, width, height);  // of the pixel that the ray is a part of
     st = {st.s + filter.dx / width, st.t - filter.dy / height};
     auto [colour, least, most] =
         with_reader(source_, wrap_, [&](auto& texels) { return on_surface(texels, st); });
-    for (std::size_t k = 0; k < 4; ++k) colour[k] = std::clamp(colour[k], least[k], most[k]);
+    const bool narrow = filter.axes.minor < kNarrow;
+    for (std::size_t k = 0; narrow && k < 4; ++k) colour[k] = std::clamp(colour[k], least[k], most[k]);
     return colour;
   }
   return with_reader(source_, wrap_, [&](auto& texels) { return filtered_texels(texels, st, footprint); });

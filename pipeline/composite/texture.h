@@ -30,8 +30,8 @@ class Texture {
 
   /// The colour that a pixel of the film sees whose centre sees (s, t): filtered by its footprint, and held
   /// to the range of the texels around. A footprint of scale 0 is a ray that pixels are made of: lookup() at
-  /// its place, held to that range. Never a NaN nor an infinity, whatever is asked for. Tiled textures throw
-  /// Failure (BadInput) when their file breaks.
+  /// its place, held to that range where its pixel's filter is narrow. Never a NaN nor an infinity, whatever
+  /// is asked for. Tiled textures throw Failure (BadInput) when their file breaks.
   Rgba filtered(TextureCoordinates st, const Footprint& footprint) const;
 
   /// Texels that were no numbers; of a tiled texture among those that have been read.
