@@ -4,7 +4,8 @@
 //
 // By `planes` with the law left open, every choice comes with a bound, in pixels of the output frame, on what
 // it leaves out: how far aside of its place any film position looks for it. (Where light is magnified, points
-// lie farther off on the film.) The bounds add up to no more than the tolerance; see plan_bounds.h.
+// lie farther off on the film.) The bounds add up to no more than the tolerance, but for what masses do
+// together, which is no choice and is told beside them; see plan_bounds.h.
 
 #pragma once
 
